@@ -227,6 +227,12 @@ class TaxiToCommand(_Command):
     runway: RunwayIdent | None = None
     place: Name | None = Field(default=None, description="a stand, a holding point or a taxiway")
     via: tuple[TaxiwayName, ...] = Field(default=(), max_length=40)
+    cross: tuple[RunwayIdent, ...] = Field(
+        default=(), max_length=10, description="runways on the way that may be crossed"
+    )
+    hold_short: tuple[TaxiwayName, ...] = Field(
+        default=(), max_length=10, description="runways and taxiways on the way to stop before"
+    )
 
 
 class HoldShortCommand(_Command):
@@ -243,6 +249,14 @@ class CrossCommand(_Command):
     action: Literal["cross"]
     runway: RunwayIdent | None = Field(default=None, description="null: the next one ahead")
     at: TaxiwayName | None = None
+
+
+class EnterCommand(_Command):
+    """Drive on to a runway, and stay there until told to leave it."""
+
+    action: Literal["enter"]
+    runway: RunwayIdent
+    at: TaxiwayName | None = Field(default=None, description="null: where it holds short")
 
 
 class VacateCommand(_Command):
@@ -278,6 +292,27 @@ class PushBackCommand(_Command):
     """Push back from the stand."""
 
     action: Literal["push_back"]
+
+
+class BehindCommand(_Command):
+    """Carry out another command once other traffic has passed."""
+
+    action: Literal["behind"]
+    whom: Name = Field(description="its callsign, or words for its type")
+    traffic: Literal["landing", "departing", "passing"] = Field(
+        default="passing", description="what it does when it passes"
+    )
+    command: (
+        LineUpCommand
+        | TakeOffCommand
+        | TaxiToCommand
+        | CrossCommand
+        | EnterCommand
+        | BacktrackCommand
+        | ContinueCommand
+        | PushBackCommand
+        | VacateCommand
+    ) = Field(discriminator="action")
 
 
 # --- on the radio ---------------------------------------------------------------------------
@@ -340,11 +375,13 @@ AircraftCommand = (
     | TaxiToCommand
     | HoldShortCommand
     | CrossCommand
+    | EnterCommand
     | VacateCommand
     | BacktrackCommand
     | FollowCommand
     | GiveWayCommand
     | PushBackCommand
+    | BehindCommand
     | ContactCommand
 )
 WildlifeCommand = MoveCommand | StandCommand

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
+from types import MappingProxyType
 from typing import Literal
 
 from airhilt.commands import (
     AltitudeCommand,
+    BehindCommand,
     Command,
     DriftDownCommand,
     EmergencyDescentCommand,
+    FollowCommand,
+    HoldPositionCommand,
+    HoldShortCommand,
     ResumeRouteCommand,
     RouteCommand,
     SpeedCommand,
+    TaxiCommand,
+    TaxiToCommand,
     TrackCommand,
     TurnCommand,
+    VacateCommand,
 )
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import Place
@@ -33,11 +41,15 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import AircraftSpec
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
-from airhilt.world.actors.actor import Reaction, Unable
+from airhilt.world.actors.actor import Actor, Reaction, Unable
+from airhilt.world.actors.behind import BehindTraffic
+from airhilt.world.actors.departure import Departure
 from airhilt.world.actors.envelope import Envelope
-from airhilt.world.actors.ground_operations import GroundOperations, TaxiingAircraft
+from airhilt.world.actors.ground_bodies import TaxiingAircraft
+from airhilt.world.actors.ground_operations import Act, GroundOperations
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.runway_operations import RunwayOperations
+from airhilt.world.actors.traffic import Traffic
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.en_route import EmergencyDescent
 from airhilt.world.site import ScenarioSite
@@ -45,6 +57,15 @@ from airhilt.world.site import ScenarioSite
 GEAR_DOWN_BELOW_M = 600.0
 """Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
 11 km before the threshold."""
+ENDS_DEPARTURE = (
+    TaxiCommand,
+    TaxiToCommand,
+    HoldPositionCommand,
+    HoldShortCommand,
+    FollowCommand,
+    VacateCommand,
+)
+"""Commands after which an aircraft lines up or takes off only when it is told again."""
 EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
     "jet": "A3",
     "heavy_jet": "A5",
@@ -62,19 +83,28 @@ class Crew:
     """Actor in an aircraft: carries out commands, unless it follows an advisory.
 
     A command that comes while an advisory is followed is deferred until the conflict is over.
-    `RunwayOperations` carries out commands about runways and taxiways. Reaction times and
-    compliance are drawn from the seed of the run.
+    `RunwayOperations` carries out commands about approaches and landings, `Departure` those about
+    takeoffs, `GroundOperations` those about taxiways. Reaction times and compliance are drawn from
+    the seed of the run. ``actors`` are all actors of the scenario by callsign, itself among them.
     """
 
     category: Literal["aircraft"] = "aircraft"
 
     def __init__(
-        self, spec: AircraftSpec, aircraft: Aircraft, site: ScenarioSite, seed: int
+        self,
+        spec: AircraftSpec,
+        aircraft: Aircraft,
+        site: ScenarioSite,
+        seed: int,
+        actors: Mapping[str, Actor] = MappingProxyType({}),
     ) -> None:
         self.spec = spec
         self.body = aircraft
-        self.ground_operations = GroundOperations(TaxiingAircraft(aircraft), site)
+        traffic = Traffic(spec.callsign, actors)
         self.runway_operations = RunwayOperations(aircraft, site)
+        self._ground = GroundOperations(TaxiingAircraft(aircraft), site, traffic)
+        self._departure = Departure(aircraft, site, self._ground, self.runway_operations)
+        self._behind = BehindTraffic(traffic)
         self._reactions = ReactionModel(spec.callsign, spec.pilot, seed)
         self._site = site
         self._envelope = Envelope(aircraft, site.ground_m)
@@ -115,7 +145,15 @@ class Crew:
     def refusal(self, command: Command) -> str | None:
         """Return why the crew cannot carry out a command now; None if it can."""
         why = self._envelope.unflyable(command)
-        return None if why is None else f"unable {why}"
+        if why is not None:
+            return f"unable {why}"
+        try:
+            self._plan(command)
+        except Unable as unable:
+            return str(unable)
+        except (ValueError, ScenarioError) as error:
+            return f"unable, {error}"
+        return None
 
     def command(self, command: Command) -> None:
         """Carry out a command, now or after the advisory that is followed, or raise `Unable`."""
@@ -125,9 +163,12 @@ class Crew:
             self._carry_out(command)
 
     def attend(self) -> None:
-        """Take the next step of a runway operation if it is due, or raise `Unable`."""
+        """Take the next step of an operation if it is due, or raise `Unable`."""
         try:
-            self.ground_operations.attend()
+            if (command := self._behind.due()) is not None:
+                self._carry_out(command)
+            self._ground.attend()
+            self._departure.attend()
             self.runway_operations.attend()
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
@@ -137,14 +178,34 @@ class Crew:
         if why is not None:
             raise Unable(why)
         try:
-            on_the_ground = self.ground_operations.plan(command)
-            if on_the_ground is not None:
-                on_the_ground()
-                self.runway_operations.forget()
+            act = self._plan(command)
+            if act is not None:
+                act()
             elif not self.runway_operations.carry_out(command):
                 self._fly(command)
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
+
+    def _plan(self, command: Command) -> Act | None:
+        """Return what carries out a command on the ground; None for one that is for the air.
+
+        `Unable`, ValueError or ScenarioError says why it cannot be carried out.
+        """
+        if isinstance(command, BehindCommand):
+            self._plan(command.command)
+            return self._behind.plan(command)
+        departs = self._departure.plan(command)
+        if departs is not None:
+            return departs
+        act = self.runway_operations.plan_exit(command) or self._ground.plan(command)
+        return None if act is None else partial(self._move_on_ground, act, command)
+
+    def _move_on_ground(self, act: Act, command: Command) -> None:
+        act()
+        if isinstance(command, ENDS_DEPARTURE):
+            self._departure.forget()
+            self._behind.forget()
+            self.runway_operations.forget()
 
     def _fly(self, command: Command) -> None:
         aircraft = self.body
@@ -205,15 +266,22 @@ class Crew:
                 case GoAround():
                     return self.runway_operations.go_around()
                 case CancelTakeoff():
-                    return self.runway_operations.cancel_takeoff()
+                    return self._departure.cancel_takeoff()
                 case HoldPosition():
-                    return self.runway_operations.hold_position()
+                    return self._hold_position()
                 case Climb() | MaintainLevel() | Turn():
                     return self._avoid(advisory, recommendation)
                 case Confirm():
                     return False
         except ValueError as error:
             raise Unable(f"unable, {error}") from None
+
+    def _hold_position(self) -> bool:
+        """Stop taxiing; return whether there was anything to stop."""
+        if self.body.phase not in ("taxi", "line_up"):
+            return False
+        self._carry_out(HoldPositionCommand(action="hold_position"))
+        return True
 
     def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
         if self._must_descend_below(recommendation):

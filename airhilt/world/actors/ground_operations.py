@@ -2,106 +2,79 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from airhilt.commands import (
     Command,
     ContinueCommand,
     CrossCommand,
+    EnterCommand,
+    FollowCommand,
+    GiveWayCommand,
     HoldPositionCommand,
     HoldShortCommand,
+    PushBackCommand,
     TaxiCommand,
     TaxiToCommand,
+    VacateCommand,
 )
-from airhilt.geodesy.wgs84 import Place, azimuth, distance_m, onward
-from airhilt.units import KNOT
+from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, distance_m
+from airhilt.units import KNOT, wrap_angle
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.taxi_clearances import require_taxiway, strip_name, way_to
-from airhilt.world.actors.taxi_paths import hold_beside, taxi_path
-from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.mover import Driven, Motion
+from airhilt.world.actors.errand import Errand
+from airhilt.world.actors.ground_bodies import GroundBody
+from airhilt.world.actors.taxi_clearances import (
+    hold_of,
+    require_taxiway,
+    strip_name,
+    way_to,
+)
+from airhilt.world.actors.taxi_paths import exits_named, hold_beside, taxi_path
+from airhilt.world.actors.traffic import Passage, Traffic
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.ways import NOSE_MARGIN_M
 
 if TYPE_CHECKING:
-    from airhilt.world.surface.ground_route import Crossing, GroundRoute
-    from airhilt.world.surface.layout import Layout
+    from airhilt.world.actors.actor import Actor
+    from airhilt.world.surface.layout import Hold
 
-BEFORE_TAXIWAY_M = 43.5
-"""Distance from the centre line of a taxiway at which one holds short of it, in m (ICAO Annex 14
-volume I, table 3-1: taxiway centre line to object, code letter E)."""
-STANDS_AT_M = 1.0
-"""Distance to a place, in m, within which one that stands need not move to it."""
-OVER_LINE_M = 1.0
-"""Distance of the nose over a hold line, in m, from which it has been passed."""
+AT_STAND_M = 5.0
+"""Distance from a stand within which an aircraft is parked on it, in m."""
+BEHIND_M = 60.0
+"""Distance that is kept between the tail of who is followed and the nose, in m; assumed: about two
+lengths of a narrow-body airliner."""
+TURN_COST_M = 300.0
+"""Length of the way to an exit, in m, that is preferred to a turn on the runway; assumed."""
+TRAIL_STEP_M = 15.0
+"""Distance between the places of who is followed that are kept, in m."""
 
 Act = Callable[[], None]
 """What a command does, once it is known that it can be done."""
 
 
-class GroundBody(Protocol):
-    """A body that moves over the ground along paths: an aircraft that taxis, or a vehicle."""
-
-    @property
-    def state(self) -> Motion:
-        """Place and movement now."""
-
-    @property
-    def length_m(self) -> float:
-        """Length from nose to tail."""
-
-    @property
-    def is_moving(self) -> bool:
-        """True while it follows a path, and is not held on it."""
-
-    def go(self, path: Sequence[Place], speed_m_s: float | None) -> None:
-        """Follow a path from here, and stop at its end."""
-
-    def stop(self) -> None:
-        """Stop on the path; no-op for one that stands."""
-
-    def resume(self) -> None:
-        """Go on along the path; ValueError if there is nothing left of it."""
-
-
-@dataclass
-class _Errand:
-    """A way that is followed, with what is allowed on it; all distances in metres along it."""
-
-    route: GroundRoute
-    end_m: float
-    speed_m_s: float | None
-    cleared: set[Crossing]
-    """Crossings of runways that are allowed."""
-    holds_short: set[float] = field(default_factory=set)
-    """Where to stop before taxiways, until told to go on."""
-    along_m: float = 0.0
-    """Place of the middle of the body."""
-    driven_to_m: float | None = None
-    """Where the body stops by itself; None before it has been told."""
-
-
 class GroundOperations:
-    """Moves one body over an airport as a controller says, and before no runway without a clearance.
+    """Moves one body over an airport as a controller says, and on to no runway without a clearance.
 
-    `plan` says what a command will do, or raises `Unable`; nothing changes before it is done.
+    `plan` says what a command will do, or raises `Unable`; nothing changes before it is done. A
+    taxi clearance does not allow to cross a runway (FAA JO 7110.65, 3-7-2).
     """
 
-    def __init__(self, body: GroundBody, site: ScenarioSite) -> None:
+    def __init__(self, body: GroundBody, site: ScenarioSite, traffic: Traffic) -> None:
         self._body = body
         self._site = site
-        self._errand: _Errand | None = None
+        self._traffic = traffic
+        self._errand: Errand | None = None
+        self._next: TaxiToCommand | None = None
+        """Clearance that is followed once the runway has been left."""
+        self._driven_to_m = 0.0
+        """Where the body stops by itself, in metres along its way."""
+        self._gives_way: Passage | None = None
+        self._leader: Actor | None = None
 
-    @property
-    def has_arrived(self) -> bool:
-        """True if there is nowhere to go on to."""
-        errand = self._errand
-        return errand is None or (
-            not self._body.is_moving and errand.end_m - errand.along_m < 2.0 + STANDS_AT_M
-        )
+    # --- commands -----------------------------------------------------------------------------
 
     def plan(self, command: Command) -> Act | None:
         """Return what carries out a command; None for one that is not about the ground.
@@ -114,26 +87,82 @@ class GroundOperations:
             case TaxiToCommand():
                 return self._plan_taxi(command)
             case HoldPositionCommand():
-                return self._body.stop
+                return self._plan_hold_position()
             case ContinueCommand():
                 return self._plan_continue()
             case HoldShortCommand(runway=runway, taxiway=taxiway):
                 return self._plan_hold_short(runway, taxiway)
             case CrossCommand(runway=runway, at=at):
                 return self._plan_cross(runway, at)
+            case EnterCommand(runway=runway, at=at):
+                return self._plan_enter(runway, at)
+            case VacateCommand():
+                return self._plan_vacate(command)
+            case FollowCommand(whom=whom):
+                return self._plan_follow(whom)
+            case GiveWayCommand(to=to):
+                return self._plan_give_way(to)
+            case PushBackCommand():
+                self._require_free()
+                raise Unable(
+                    "unable, no tug here, ready to taxi"
+                    if self.stand is not None
+                    else "unable, not at a stand"
+                )
         return None
 
-    def abandon(self) -> None:
-        """Forget the way: something else moves the body now."""
-        self._errand = None
+    def forget(self) -> None:
+        """Forget the way, and what was to come after it: something else moves the body now."""
+        self._errand = self._next = self._gives_way = self._leader = None
 
     def attend(self) -> None:
-        """Take note of how far it has come."""
+        """Note how far it has come, and take the next step that is due, or raise `Unable`."""
+        if self._next is not None and not self._body.busy and not self._body.is_rolling_out:
+            command, self._next = self._next, None
+            self._plan_taxi(command)()
+        if self._gives_way is not None and self._gives_way.is_over():
+            self._gives_way = None
+            if self._errand is not None and not self._errand.is_done:
+                self._go_on(self._errand)
         errand = self._errand
-        if errand is not None:
-            errand.along_m = errand.route.along_m(self._here, errand.along_m)
+        if errand is None:
+            return
+        errand.come_to(self._here)
+        if self._leader is not None and self._gives_way is None:
+            self._attend_leader(errand, self._leader)
 
-    # --- plans --------------------------------------------------------------------------------
+    @property
+    def has_arrived(self) -> bool:
+        """True if there is nowhere to go on to."""
+        errand = self._errand
+        return errand is None or (not self._body.is_moving and errand.is_done)
+
+    def leads_to(self, strip: str) -> bool:
+        """Return whether the way ends at a hold line of a runway, by its whole name.
+
+        `Unable` says that it leads over another runway first, which is not cleared.
+        """
+        errand = self._errand
+        if errand is None:
+            return True
+        if not self._ends_before(errand, strip):
+            return False
+        self._require_no_stop(errand)
+        return True
+
+    def plan_to_hold(self, runway: str) -> Act:
+        """Return what goes to the holding position of a runway, without a stop before it."""
+        self._require_free()
+        errand = self._errand_to(TaxiToCommand(action="taxi_to", runway=runway))
+        self._require_no_stop(errand)
+        return partial(self._begin, errand)
+
+    @staticmethod
+    def _require_no_stop(errand: Errand) -> None:
+        if errand.limit_m < errand.end_m:
+            raise Unable(f"unable, runway {errand.next_runway} is on our way")
+
+    # --- to taxi ------------------------------------------------------------------------------
 
     def _plan_scripted(self, command: TaxiCommand) -> Act:
         """Return what goes to a given place, over any runway."""
@@ -142,150 +171,292 @@ class GroundOperations:
 
         def go() -> None:
             self._body.go(path, speed)
+            self.forget()
             if self._site.layout is not None:
-                route = self._route([self._here, *path])
-                self._errand = _Errand(route, route.length_m, speed, set(route.crossings))
-                self._errand.driven_to_m = route.length_m
+                self._errand = self._errand_on([self._here, *path], speed, goes_on=False)
+                self._errand.clear_all()
+                self._driven_to_m = self._errand.limit_m
 
         return go
 
     def _plan_taxi(self, command: TaxiToCommand) -> Act:
+        if self._body.is_rolling_out:
+            way_to(self._site.airport, self._here, None, command)
+            return partial(setattr, self, "_next", command)
+        self._require_free()
+        return partial(self._begin, self._errand_to(command))
+
+    def _errand_to(self, command: TaxiToCommand) -> Errand:
+        """Return the errand of a taxi clearance from here."""
         airport = self._site.airport
-        places, is_hold = way_to(airport, self._here, self._body.state.heading_rad, command)
-        return self._plan_way(
-            [self._here, *places], self._nose_m + NOSE_MARGIN_M if is_hold else 0.0
-        )
+        way = way_to(airport, self._here, self._body.state.heading_rad, command)
+        short_m = self._nose_m + NOSE_MARGIN_M if way.is_hold else 0.0
+        errand = self._errand_on([self._here, *way.places], before_end_m=short_m)
+        for runway in command.cross:
+            if not errand.clear_next(strip_name(airport, runway)):
+                raise Unable(f"unable, runway {runway} is not on our way")
+        for name in command.hold_short:
+            self._plan_hold_short_on(errand, name)()
+        return errand
 
-    def _plan_way(
-        self, places: Sequence[Place], before_end_m: float = 0.0, cleared: Iterable[str] = ()
-    ) -> Act:
-        """Return what follows a way, to some distance before its end.
-
-        The first crossings of the runways ``cleared`` are allowed.
-        """
-        ahead = onward(places[-1], azimuth(places[-2], places[-1]), self._nose_m)
-        route = self._route([*places, ahead])
-        end_m = max(route.length_m - self._nose_m - before_end_m, 0.0)
-        errand = _Errand(route, end_m, None, set())
-        for runway in cleared:
-            errand.cleared |= set(self._ahead(errand, runway)[:1])
-        errand.end_m = min([end_m, *self._stops_beyond(errand, end_m)])
+    def plan_way(self, places: Sequence[Place], cleared: Iterable[str]) -> Act:
+        """Return what follows a way from here, over the runways of some names."""
+        errand = self._errand_on([self._here, *places])
+        for strip in cleared:
+            errand.clear_next(strip)
         return partial(self._begin, errand)
 
+    def _plan_hold_position(self) -> Act:
+        self._require_free(or_rolling=True)
+
+        def hold() -> None:
+            self._body.stop()
+            self._next = self._gives_way = self._leader = None
+
+        return hold
+
     def _plan_continue(self) -> Act:
+        self._require_free()
         errand = self._errand
-        if errand is None or errand.driven_to_m == errand.end_m:
+        if errand is None or errand.is_done:
             return self._body.resume
-        if self._limit_m(errand) - errand.along_m < STANDS_AT_M:
-            crossing = next(iter(self._uncleared(errand)), None)
-            what = "" if crossing is None else f" of runway {crossing.runway}"
-            raise Unable(f"unable, holding short{what}")
-        return partial(self._move, errand)
+        if errand.waits_for_clearance:
+            raise Unable(f"unable, holding short of runway {errand.next_runway}")
+
+        def go_on() -> None:
+            self._gives_way = None
+            errand.pass_taxiways()
+            self._go_on(errand)
+
+        return go_on
+
+    # --- at runways and taxiways --------------------------------------------------------------
 
     def _plan_hold_short(self, runway: str | None, taxiway: str | None) -> Act:
-        airport, errand = self._site.airport, self._errand
+        errand = self._errand
+        if self._body.is_rolling_out:
+            return self._plan_hold_short_on_landing(runway, taxiway)
+        self._require_free()
+        if runway is None and taxiway is None:
+            runway = None if errand is None else errand.next_runway
+            if runway is None:
+                raise Unable("say again, hold short of what")
         if taxiway is not None:
-            require_taxiway(airport, taxiway)
-            if errand is None or self.has_arrived:
-                return self._body.stop
-            return self._plan_hold_before(errand, taxiway)
-        if runway is None and errand is not None and errand.route.crossings:
-            ahead = [each for each in errand.route.crossings if self._is_ahead(errand, each)]
-            runway = ahead[0].runway.split("/")[0] if ahead else None
-        if runway is None:
-            raise Unable("unable, say which runway to hold short of")
-        strip = strip_name(airport, runway)
-        if self._is_on(strip):
+            require_taxiway(self._site.airport, taxiway)
+        elif runway is not None and self.is_on(strip_name(self._site.airport, runway)):
             raise Unable(f"unable, already on runway {runway}")
         if errand is None or self.has_arrived:
             return self._body.stop
-        ahead = self._ahead(errand, strip)
-        if not ahead:
-            if any(each.runway == strip for each in errand.route.crossings):
-                raise Unable(f"unable, past runway {runway}")
-            if self._ends_before(errand, strip):
+        hold = self._plan_hold_short_on(errand, runway or taxiway or "")
+
+        def hold_short() -> None:
+            hold()
+            self._move(errand)
+
+        self._require_room(errand, runway)
+        return hold_short
+
+    def _require_room(self, errand: Errand, runway: str | None) -> None:
+        """Raise `Unable` if the body is too fast to stop before a runway."""
+        if runway is None:
+            return
+        room_m = errand.room_before_m(strip_name(self._site.airport, runway))
+        speed = self._body.state.ground_speed_m_s
+        if room_m is not None and speed**2 / (2.0 * self._body.braking_m_s2) > room_m:
+            raise Unable(f"unable, too late to hold short of runway {runway}")
+
+    def _plan_hold_short_on_landing(self, runway: str | None, taxiway: str | None) -> Act:
+        """Return nothing to do if the way off the runway stays short of there."""
+        airport = self._site.airport
+        if taxiway is not None:
+            require_taxiway(airport, taxiway)
+        elif runway is not None:
+            strip = strip_name(airport, runway)
+            crossed = [pair for *pair, _ in airport.intersections if strip in pair]
+            if self.is_on(strip) or any(self.is_on(name) for pair in crossed for name in pair):
+                raise Unable(f"unable to hold short of runway {runway}")
+        return _nothing
+
+    def _plan_hold_short_on(self, errand: Errand, name: str) -> Act:
+        """Return what stops on a way before a runway or a taxiway; it changes the errand alone."""
+        airport = self._site.airport
+        is_runway = name[:1].isdigit()
+        if is_runway:
+            strip = strip_name(airport, name)
+            if errand.crosses(strip):
+                return partial(errand.hold_short_of_runway, strip)
+            past = errand.has_crossed(strip)
+            if not past and self._ends_before(errand, strip):
                 return _nothing
-            raise Unable(f"unable, runway {runway} is not on our way")
-
-        def hold_short() -> None:
-            errand.cleared -= set(ahead)
-            self._move(errand)
-
-        return hold_short
-
-    def _plan_hold_before(self, errand: _Errand, taxiway: str) -> Act:
-        """Return what stops before a taxiway on the way."""
-        from_m = errand.along_m + self._nose_m
-        meets_m = errand.route.meets_m(taxiway, from_m)
-        if meets_m is None or meets_m > errand.end_m + self._nose_m:
-            passed = errand.route.meets_m(taxiway, -1.0) is not None
-            raise Unable(
-                f"unable, past taxiway {taxiway}"
-                if passed
-                else f"unable, taxiway {taxiway} is not on our way"
-            )
-
-        def hold_short() -> None:
-            errand.holds_short.add(max(meets_m - BEFORE_TAXIWAY_M - self._nose_m, 0.0))
-            self._move(errand)
-
-        return hold_short
+            what = f"runway {name}"
+        else:
+            require_taxiway(airport, name)
+            if errand.meets(name):
+                return partial(errand.hold_short_of_taxiway, name)
+            past, what = errand.has_met(name), f"taxiway {name}"
+        raise Unable(f"unable, past {what}" if past else f"unable, {what} is not on our way")
 
     def _plan_cross(self, runway: str | None, at: str | None) -> Act:
+        self._require_free()
         airport, errand = self._site.airport, self._errand
+        strip = None if runway is None else strip_name(airport, runway)
         if at is not None:
             require_taxiway(airport, at)
-        if errand is not None:
-            strip = None if runway is None else strip_name(airport, runway)
-            for crossing in errand.route.crossings:
-                if not self._is_ahead(errand, crossing) or crossing.enter_m > errand.end_m:
-                    continue
-                if strip in (None, crossing.runway):
-                    return partial(self._clear, errand, crossing)
-        return self._plan_cross_from_hold(runway)
+        if errand is not None and errand.crosses(strip):
+            hold = errand.hold_before(strip)
+            if at is not None and hold is not None and at not in (hold.taxiway, hold.position):
+                raise Unable(f"unable, we cross at {hold.taxiway}")
+            return partial(self._cross, errand, strip)
+        if errand is not None and strip is not None and errand.is_crossing(strip):
+            return _nothing
+        return self._plan_cross_from_hold(runway, at)
 
-    def _plan_cross_from_hold(self, runway: str | None) -> Act:
+    def _cross(self, errand: Errand, strip: str | None) -> None:
+        errand.clear_next(strip)
+        self._gives_way = None
+        self._move(errand)
+
+    def _plan_cross_from_hold(self, runway: str | None, at: str | None) -> Act:
         """Return what goes from a hold line to beyond the one on the other side."""
         airport = self._site.airport
         if runway is None:
-            raise Unable("unable, say which runway to cross")
-        strip = strip_name(airport, runway)
-        if self._is_on(strip):
-            return self._plan_continue()
-        hold = hold_beside(self._site, self._here, runway)
+            raise Unable("say again, cross which runway")
+        hold = self._hold_here(runway, at)
         way = airport.way_across(hold)
         if way is None:
             raise Unable(f"unable, taxiway {hold.taxiway} does not lead across runway {runway}")
-        places, line_m = way
-        far_m = line_m + self._body.length_m / 2.0 + NOSE_MARGIN_M
-        kept = _first(airport, places, far_m)
-        return self._plan_way([self._here, *kept], cleared=[strip])
+        return self.plan_way(self._cut(*way), [hold.runway])
+
+    def _plan_enter(self, runway: str, at: str | None) -> Act:
+        """Return what drives on to a runway, from the hold line here or from another."""
+        self._require_free()
+        airport = self._site.airport
+        strip = strip_name(airport, runway)
+        if self.is_on(strip):
+            return self._body.stop
+        places: list[Place] = []
+        if at is None:
+            hold = self._hold_here(runway, None)
+        else:
+            hold = hold_of(airport, runway, at, self._here)
+            to_hold = TaxiToCommand(action="taxi_to", runway=runway, place=hold.position)
+            heading_rad = self._body.state.heading_rad
+            places = way_to(airport, self._here, heading_rad, to_hold).places[:-1]
+        inward = airport.taxiways.to_centreline(hold.name, strip)
+        places += [hold.place, *(airport.node(name) for name in inward[1:])]
+        return self.plan_way(places, [strip])
+
+    def _plan_vacate(self, command: VacateCommand) -> Act:
+        """Return what leaves the runway on which the body stands or moves."""
+        self._require_free()
+        airport = self._site.airport
+        strip = next((strip for strip in airport.strips.values() if self.is_on(strip.name)), None)
+        if strip is None:
+            raise Unable("unable, not on a runway")
+        errand = self._errand
+        goes = errand is not None and errand.is_crossing(strip.name) and not errand.is_done
+        if errand is not None and goes and command.exit is None and command.side is None:
+            return partial(self._go_on, errand)
+        ways: list[tuple[float, list[Place]]] = []
+        heading_rad = self._body.state.heading_rad
+        for end in strip.ends:
+            turns = abs(wrap_angle(heading_rad - end.course_rad)) > math.pi / 2.0
+            if turns and command.side is not None:
+                continue
+            try:
+                exits = exits_named(self._site, end, command.exit, command.side)
+            except Unable:
+                continue
+            here_m = along_m(end.threshold, end.course_rad, self._here)
+            for way in exits:
+                ahead_m = way.along_m - here_m
+                if ahead_m > 0.0:
+                    ways.append((ahead_m + (TURN_COST_M if turns else 0.0), list(way.path)))
+        if not ways:
+            require = command.exit or "that side"
+            raise Unable(f"unable, no way off the runway at {require}")
+        _, path = min(ways, key=lambda way: way[0])
+        return self.plan_way(path, [strip.name])
+
+    # --- other traffic ------------------------------------------------------------------------
+
+    def _plan_give_way(self, to: str) -> Act:
+        self._require_free()
+        passage = self._traffic.passage(self._traffic.named(to), "passing")
+
+        def give_way() -> None:
+            self._gives_way = passage
+            self._body.stop()
+
+        return give_way
+
+    def _plan_follow(self, whom: str) -> Act | None:
+        if self._body.busy == "unable, airborne":
+            return None
+        self._require_free()
+        leader = self._traffic.named(whom)
+        if not leader.body.on_ground:
+            raise Unable(f"unable, {whom} is airborne")
+        airport, state = self._site.airport, leader.body.state
+        there = state.latitude_rad, state.longitude_rad
+        way = airport.taxi_route(self._here, there, (), self._body.state.heading_rad)
+        errand = self._errand_on([self._here, *way], goes_on=False)
+        errand.end_m = max(errand.end_m - self._gap_m(leader), 0.0)
+
+        def follow() -> None:
+            self._begin(errand)
+            self._leader = leader
+
+        return follow
+
+    def _attend_leader(self, errand: Errand, leader: Actor) -> None:
+        """Go on behind who is followed; who has left the ground is followed no more."""
+        if leader.body.ended is not None or not leader.body.on_ground:
+            self._leader = None
+            return
+        state = leader.body.state
+        there = state.latitude_rad, state.longitude_rad
+        if distance_m(errand.route_end, there) < TRAIL_STEP_M:
+            return
+        longer = errand.extended(there)
+        longer.end_m = max(longer.end_m - self._gap_m(leader), errand.along_m)
+        self._errand = longer
+        self._move(longer)
+
+    def _gap_m(self, leader: Actor) -> float:
+        return leader.body.dimensions.length_m / 2.0 + BEHIND_M + self._nose_m
 
     # --- steps --------------------------------------------------------------------------------
 
-    def _begin(self, errand: _Errand) -> None:
+    def _begin(self, errand: Errand) -> None:
+        self.forget()
         self._errand = errand
         self._move(errand)
 
-    def _clear(self, errand: _Errand, crossing: Crossing) -> None:
-        errand.cleared.add(crossing)
-        self._move(errand)
+    def _go_on(self, errand: Errand) -> None:
+        """Move on after a stop on the way."""
+        if errand.limit_m == self._driven_to_m:
+            self._body.resume()
+        else:
+            self._move(errand)
 
-    def _move(self, errand: _Errand) -> None:
+    def _move(self, errand: Errand) -> None:
         """Move on to where the body has to stop next."""
-        limit_m = self._limit_m(errand)
-        errand.driven_to_m = limit_m
-        if limit_m - errand.along_m < STANDS_AT_M:
+        self._driven_to_m = errand.limit_m
+        if errand.stands_at_limit:
             self._body.stop()
         else:
-            self._body.go(errand.route.part(errand.along_m, limit_m), errand.speed_m_s)
-
-    def _limit_m(self, errand: _Errand) -> float:
-        """Return where the body has to stop next."""
-        stops = [self._stop_before(each) for each in self._uncleared(errand)]
-        return max(min([errand.end_m, *stops, *errand.holds_short]), errand.along_m)
+            self._body.go(errand.path, errand.speed_m_s)
 
     # --- what is where ------------------------------------------------------------------------
+
+    def is_on(self, strip: str) -> bool:
+        """Return whether the body is within the protected area of a runway, by its whole name."""
+        from shapely import Point
+
+        airport = self._site.airport
+        at = Point(airport.local_frame.to_local(self._here))
+        return bool(airport.strips[strip].protected_area.contains(at))
 
     @property
     def _here(self) -> Place:
@@ -296,119 +467,68 @@ class GroundOperations:
     def _nose_m(self) -> float:
         return self._body.length_m / 2.0
 
-    def _route(self, places: Sequence[Place]) -> GroundRoute:
-        # Not at the top: scenarios without an airport start without the libraries behind it.
-        from airhilt.world.surface.ground_route import GroundRoute
+    def _require_free(self, *, or_rolling: bool = False) -> None:
+        """Raise `Unable` if the body cannot follow a path now."""
+        if self._body.busy and not (or_rolling and self._body.is_rolling_out):
+            raise Unable(self._body.busy)
 
-        return GroundRoute(self._site.airport, places)
+    def _errand_on(
+        self,
+        places: Sequence[Place],
+        speed_m_s: float | None = None,
+        *,
+        before_end_m: float = 0.0,
+        goes_on: bool = True,
+    ) -> Errand:
+        return Errand(
+            self._site.airport,
+            places,
+            self._nose_m,
+            speed_m_s,
+            before_end_m=before_end_m,
+            overhangs=goes_on,
+        )
 
-    def _stop_before(self, crossing: Crossing) -> float:
-        return crossing.enter_m - self._nose_m - NOSE_MARGIN_M
+    def _hold_here(self, runway: str, at: str | None) -> Hold:
+        """Return the holding position of a runway at which the body stands, or raise `Unable`."""
+        hold = hold_beside(self._site, self._here, runway)
+        if at is not None and at not in (hold.taxiway, hold.position):
+            raise Unable(f"unable, not at {at}, we are at {hold.taxiway}")
+        return hold
 
-    def _is_ahead(self, errand: _Errand, crossing: Crossing) -> bool:
-        """Return whether the nose has not passed the hold line before a runway."""
-        return crossing.enter_m > errand.along_m + self._nose_m - OVER_LINE_M
-
-    def _ahead(self, errand: _Errand, strip: str) -> list[Crossing]:
-        return [
-            each
-            for each in errand.route.crossings
-            if each.runway == strip and self._is_ahead(errand, each)
-        ]
-
-    def _uncleared(self, errand: _Errand) -> list[Crossing]:
-        return [
-            each
-            for each in errand.route.crossings
-            if each not in errand.cleared and self._is_ahead(errand, each)
-        ]
-
-    def _stops_beyond(self, errand: _Errand, end_m: float) -> list[float]:
-        """Return where to stop because the nose would pass a hold line at the end of the way."""
-        return [
-            self._stop_before(each)
-            for each in errand.route.crossings
-            if end_m < each.enter_m < end_m + self._nose_m
-        ]
-
-    def _is_on(self, strip: str) -> bool:
-        """Return whether the body is within the protected area of a runway."""
-        from shapely import Point
-
-        airport = self._site.airport
-        at = Point(airport.local_frame.to_local(self._here))
-        return bool(airport.strips[strip].protected_area.contains(at))
-
-    def _ends_before(self, errand: _Errand, strip: str) -> bool:
-        """Return whether the way ends at a hold line of a runway."""
-        end = errand.route.part(errand.end_m - 1.0, errand.end_m)[-1]
+    def _ends_before(self, errand: Errand, strip: str) -> bool:
+        """Return whether a way ends at a hold line of a runway."""
         reach_m = self._nose_m + 2.0 * NOSE_MARGIN_M
         return any(
-            hold.runway == strip and distance_m(end, hold.place) < reach_m
+            hold.runway == strip and distance_m(errand.end, hold.place) < reach_m
             for hold in self._site.airport.holds.values()
         )
 
+    @property
+    def stand(self) -> str | None:
+        """Return the stand on which the body is parked."""
+        airport = self._site.airport
+        near = (name for name in airport.stands if self._away_m(airport.node(name)) < AT_STAND_M)
+        return next(near, None)
 
-def _first(airport: Layout, places: Sequence[Place], length_m: float) -> list[Place]:
-    """Return the first metres of a way."""
-    from airhilt.world.surface import path as lines
+    def _away_m(self, place: Place) -> float:
+        return distance_m(self._here, place)
 
-    points = [airport.local_frame.to_local(place) for place in places]
-    return [airport.local_frame.to_place(*point) for point in lines.cut(points, length_m)]
+    def _cut(self, places: Sequence[Place], line_m: float) -> list[Place]:
+        """Return a way, cut where the tail is past a hold line on it."""
+        from airhilt.world.surface import path as lines
+
+        frame = self._site.airport.local_frame
+        points = [frame.to_local(place) for place in places]
+        past_m = line_m + self._nose_m + NOSE_MARGIN_M
+        return [frame.to_place(*point) for point in lines.cut(points, past_m)]
+
+
+def along_m(start: Place, course_rad: float, place: Place) -> float:
+    """Return how far a place is from another along a course, in m."""
+    away_m, bearing_rad = distance_and_azimuth(start, place)
+    return away_m * math.cos(bearing_rad - course_rad)
 
 
 def _nothing() -> None:
     """Do what is done already."""
-
-
-class TaxiingAircraft:
-    """An aircraft on the ground, moved along paths."""
-
-    def __init__(self, aircraft: Aircraft) -> None:
-        self._aircraft = aircraft
-        self.length_m = aircraft.kind.dimensions.length_m
-
-    @property
-    def state(self) -> Motion:
-        """Place and movement now."""
-        return self._aircraft.state
-
-    @property
-    def is_moving(self) -> bool:
-        """True while it taxis."""
-        return self._aircraft.phase in ("taxi", "line_up", "vacate")
-
-    def go(self, path: Sequence[Place], speed_m_s: float | None) -> None:
-        """Taxi along a path from here, and stand at its end."""
-        self._aircraft.procedures.taxi(path, speed_m_s)
-
-    def stop(self) -> None:
-        """Stop on the path."""
-        self._aircraft.procedures.hold_position()
-
-    def resume(self) -> None:
-        """Go on along the path."""
-        self._aircraft.procedures.resume_taxi()
-
-
-class DrivenVehicle:
-    """A vehicle, driven along paths."""
-
-    def __init__(self, body: Driven) -> None:
-        self._body = body
-        self.go, self.stop, self.resume = body.drive, body.stop, body.resume
-
-    @property
-    def length_m(self) -> float:
-        """Length from nose to tail."""
-        return self._body.dimensions.length_m
-
-    @property
-    def state(self) -> Motion:
-        """Place and movement now."""
-        return self._body.state
-
-    @property
-    def is_moving(self) -> bool:
-        """True while it drives."""
-        return self._body.phase == "driving"

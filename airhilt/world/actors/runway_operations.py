@@ -1,37 +1,38 @@
-"""Runway operations of a crew: taxi, line up, take off, land, go around."""
+"""Runway operations of a crew: approach, land, leave the runway, go around."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import TYPE_CHECKING
 
 from airhilt.commands import (
-    CancelTakeoffCommand,
     Command,
     GoAroundCommand,
     LandCommand,
-    LineUpCommand,
     RouteCommand,
     SideStepCommand,
-    TakeOffCommand,
     TrackCommand,
     TurnCommand,
+    VacateCommand,
 )
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, wrap_angle
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.taxi_paths import exit_for, hold_beside
+from airhilt.world.actors.taxi_paths import (
+    EXIT_SPEED_M_S,
+    FIRM_BRAKING_M_S2,
+    TOUCHDOWN_M,
+    exit_for,
+    exits_named,
+)
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
 
 if TYPE_CHECKING:
-    from airhilt.world.surface.layout import Layout
+    from airhilt.world.surface.layout import Exit, Layout
 
-DECISION_SPEED_PART = 0.95
-"""V1 as a part of the rotation speed: on dry runways the two lie within a few knots."""
 DECISION_HEIGHT_M = 200.0 * FOOT
 """Height in m at which a crew without a landing clearance goes around (category I minimum)."""
 GO_AROUND_CLIMB_M = 3000.0 * FOOT
@@ -43,6 +44,7 @@ TOO_HIGH_M = 150.0 * FOOT
 (ICAO Annex 10 volume I, 3.1.5.1.4)."""
 CAPTURE_ANGLE_RAD = math.radians(40.0)
 """Greatest angle to the final approach course at which it is joined, in rad."""
+Act = Callable[[], None]
 CAPTURE_DISTANCE_M = 0.5 * NAUTICAL_MILE
 """Greatest distance from the extended centre line at which the final approach is joined, in m."""
 
@@ -76,7 +78,7 @@ class FinalApproach:
 
 
 class RunwayOperations:
-    """Carries out the commands of one crew about runways and taxiways.
+    """Carries out the commands of one crew about approaches and landings.
 
     What cannot be carried out raises Unable, ValueError or ScenarioError.
     """
@@ -87,6 +89,8 @@ class RunwayOperations:
         self._aircraft = aircraft
         self._site = site
         self._cleared_to_land = False
+        self._exit_path: Sequence[Place] = ()
+        """Way off the runway after the landing."""
         self._next: Callable[[], bool] | None = None
         """Next step, tried several times a second until it returns True."""
 
@@ -107,14 +111,8 @@ class RunwayOperations:
     # --- commands -----------------------------------------------------------------------------
 
     def carry_out(self, command: Command) -> bool:
-        """Carry out a command; return False for one that is not about runways or taxiways."""
+        """Carry out a command; return False for one that is not about a landing."""
         match command:
-            case LineUpCommand(runway=runway):
-                self._line_up(runway)
-            case TakeOffCommand(runway=runway, climb_to_ft=altitude):
-                self._take_off(runway, altitude * FOOT)
-            case CancelTakeoffCommand():
-                self.cancel_takeoff()
             case LandCommand():
                 self._land(command)
             case GoAroundCommand(climb_to_ft=altitude):
@@ -149,6 +147,49 @@ class RunwayOperations:
         elif phase == "glide" and self._final is not None:
             self._go_around_if_too_high(self._final)
 
+    # --- the way off the runway -----------------------------------------------------------------
+
+    def plan_exit(self, command: Command) -> Act | None:
+        """Return what makes a landing aircraft leave its runway at a place; None if it has landed.
+
+        `Unable` says why it cannot leave there.
+        """
+        phase, final = self._aircraft.phase, self._final
+        if not isinstance(command, VacateCommand) or final is None:
+            return None
+        if phase in ("glide", "flare", "rollout"):
+            begin = self._aircraft.procedures.leave_at
+        elif self._next is not None and not self._aircraft.on_ground:
+            begin = None
+        else:
+            return None
+        path = self._exit(final, command).path
+
+        def leave_there() -> None:
+            self._exit_path = path
+            if begin is not None:
+                begin(path)
+
+        return leave_there
+
+    def _exit(self, final: FinalApproach, command: VacateCommand) -> Exit:
+        """Return the exit that a command means for an aircraft that lands, or raise `Unable`."""
+        runway, aircraft = final.runway, self._aircraft
+        exits = exits_named(self._site, runway, command.exit, command.side)
+        on_it = aircraft.phase == "rollout"
+        here_m = -final.before_m(self._here()) if on_it else TOUCHDOWN_M
+        approach_m_s = aircraft.kind.speeds.approach_kt * KNOT
+        speed_m_s = aircraft.state.ground_speed_m_s if on_it else approach_m_s
+        braking_m = max(speed_m_s**2 - EXIT_SPEED_M_S**2, 0.0) / (2.0 * FIRM_BRAKING_M_S2)
+        made = [each for each in exits if each.along_m >= here_m + braking_m + speed_m_s]
+        if made:
+            return made[0]
+        where = command.exit or f"{command.side or 'next'} exit".replace(
+            "next exit", "the next exit"
+        )
+        past = all(each.along_m < here_m for each in exits)
+        raise Unable(f"unable, past {where}" if past else f"unable, too fast for {where}")
+
     # --- advisories ---------------------------------------------------------------------------
 
     def go_around(self) -> bool:
@@ -160,73 +201,11 @@ class RunwayOperations:
         self._break_off(max(usual_m, aircraft.state.altitude_m + LEAST_CLIMB_M))
         return True
 
-    def cancel_takeoff(self) -> bool:
-        """Cancel a takeoff, or reject it below the decision speed; return False above that."""
-        aircraft = self._aircraft
-        match aircraft.phase:
-            case "takeoff_roll":
-                decision = DECISION_SPEED_PART * aircraft.kind.speeds.rotate_kt * KNOT
-                if aircraft.state.calibrated_airspeed_m_s > decision:
-                    return False
-                aircraft.procedures.reject_takeoff()
-            case "line_up" | "taxi":
-                aircraft.procedures.hold_position()
-            case "lined_up" | "standing":
-                pass
-            case _:
-                return False
-        self._next = None
-        return True
-
-    def hold_position(self) -> bool:
-        """Stop taxiing; return whether there was anything to stop."""
-        if self._aircraft.phase not in ("taxi", "line_up"):
-            return False
-        self._next = None
-        self._aircraft.procedures.hold_position()
-        return True
-
     # --- steps --------------------------------------------------------------------------------
 
     def _here(self) -> Place:
         state = self._aircraft.state
         return state.latitude_rad, state.longitude_rad
-
-    def _line_up(self, runway: str) -> None:
-        aircraft, here = self._aircraft, self._here()
-        final = FinalApproach(self._site.airport, self._site.runway(runway))
-        if aircraft.phase == "taxi":
-            self._next = partial(self._line_up_once_standing, runway)
-        elif aircraft.phase not in ("lined_up", "line_up"):
-            hold = hold_beside(self._site, here, runway)
-            path = self._site.airport.entry_path(hold, runway)
-            # After a hold on the way in, the aircraft goes on from there, not from the hold line.
-            aside_m = abs(final.right_m(here))
-            ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
-            aircraft.procedures.taxi([here, *(ahead or path[-1:])], then="lined_up")
-        self._final = final
-
-    def _line_up_once_standing(self, runway: str) -> bool:
-        if self._aircraft.phase != "standing":
-            return False
-        self._line_up(runway)
-        return True
-
-    def _take_off(self, runway: str, climb_to_m: float) -> None:
-        if self._aircraft.phase in ("takeoff_roll", "rotate"):
-            raise Unable("unable, already rolling")
-        self._line_up(runway)
-        self._next = partial(self._roll_once_lined_up, runway, climb_to_m)
-        self.attend()
-
-    def _roll_once_lined_up(self, runway: str, climb_to_m: float) -> bool:
-        if self._aircraft.phase == "standing":
-            self._line_up(runway)
-            return False
-        if self._aircraft.phase != "lined_up":
-            return False
-        self._aircraft.procedures.take_off(self.bind(runway), climb_to_m)
-        return True
 
     def _land(self, command: LandCommand) -> None:
         aircraft, site = self._aircraft, self._site
@@ -243,15 +222,16 @@ class RunwayOperations:
             way_out = exit_for(site, runway, speed_m_s, command.exit)
             exit_path = way_out.path if way_out else ()
         self.bind(command.runway)
+        self._exit_path = exit_path
         self._cleared_to_land = True
         if command.via:
             via = [site.place(position) for position in command.via]
             aircraft.en_route.fly_route([*via, runway.threshold])
-        self._next = partial(self._land_once_on_final, exit_path)
+        self._next = self._land_once_on_final
         if not command.via:
             self.attend()
 
-    def _land_once_on_final(self, exit_path: Sequence[Place]) -> bool:
+    def _land_once_on_final(self) -> bool:
         final, state = self._final, self._aircraft.state
         here = self._here()
         if (
@@ -261,7 +241,7 @@ class RunwayOperations:
             or abs(final.right_m(here)) > CAPTURE_DISTANCE_M
         ):
             return False
-        self._aircraft.procedures.land(final.runway, exit_path)
+        self._aircraft.procedures.land(final.runway, self._exit_path)
         return True
 
     def _go_around_uncleared(self) -> bool:

@@ -7,14 +7,24 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, Literal, TypeVar
 
-from airhilt.commands import Command
+from airhilt.commands import (
+    BehindCommand,
+    Command,
+    HoldPositionCommand,
+    TaxiCommand,
+    TaxiToCommand,
+    WildlifeCommand,
+)
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.messages import Advisory, EmitterCategory, HoldPosition, Recommendation
 from airhilt.scenario.models import VehicleSpec, WildlifeSpec
 from airhilt.world.actors.actor import Actor, Reaction, Unable
-from airhilt.world.actors.ground_operations import DrivenVehicle, GroundOperations
+from airhilt.world.actors.behind import BehindTraffic
+from airhilt.world.actors.ground_bodies import DrivenVehicle
+from airhilt.world.actors.ground_operations import Act, GroundOperations
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
+from airhilt.world.actors.traffic import Traffic
 from airhilt.world.mover import Creature, Driven
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kind import Kind
@@ -49,38 +59,63 @@ class Driver(_SurfaceActor[Driven]):
 
     spec: VehicleSpec
     reactions: ReactionModel
+    actors: Mapping[str, Actor]
+    """All actors of the scenario by callsign, itself among them."""
     category: Literal["vehicle"] = "vehicle"
 
     @cached_property
-    def ground_operations(self) -> GroundOperations:
-        """What the driver is doing on the airport."""
-        return GroundOperations(DrivenVehicle(self.body), self.site)
+    def _traffic(self) -> Traffic:
+        return Traffic(self.spec.callsign, self.actors)
+
+    @cached_property
+    def _ground(self) -> GroundOperations:
+        return GroundOperations(DrivenVehicle(self.body), self.site, self._traffic)
+
+    @cached_property
+    def _behind(self) -> BehindTraffic:
+        return BehindTraffic(self._traffic)
 
     def refusal(self, command: Command) -> str | None:
-        """Return why the driver cannot carry out a command; None if its kind has such a command."""
-        if isinstance(command, self.kind.understands):
-            return None
-        return f"unable, a driver does not {command.action.replace('_', ' ')}"
+        """Return why the driver cannot carry out a command; None if the driver can."""
+        try:
+            self._plan(command)
+        except Unable as unable:
+            return str(unable)
+        except (ValueError, ScenarioError) as error:
+            return f"unable, {error}"
+        return None
 
     def command(self, command: Command) -> None:
         """Carry out a command; raise `Unable` without a way, or if its kind has no such command."""
-        why = self.refusal(command)
-        if why is not None:
-            raise Unable(why)
         self._carry_out(command)
 
     def _carry_out(self, command: Command) -> bool:
+        """Carry out a command; return whether there was anything to do."""
+        was_moving = self.body.phase == "driving"
         try:
-            on_the_ground = self.ground_operations.plan(command)
-            if on_the_ground is None:
+            act = self._plan(command)
+            if act is None:
                 return self.kind.carry_out(self.body, command, self.site)
-            was_moving = self.body.phase == "driving"
-            on_the_ground()
-        except ValueError as error:
+            act()
+        except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
-        except ScenarioError as error:
-            raise Unable(str(error)) from None
+        if isinstance(command, HoldPositionCommand | TaxiCommand | TaxiToCommand):
+            self._behind.forget()
         return was_moving or self.body.phase == "driving"
+
+    def _plan(self, command: Command) -> Act | None:
+        """Return what carries out a command on the airport; None for one of its kind alone."""
+        if not isinstance(command, self.kind.understands):
+            aircraft = not isinstance(command, WildlifeCommand)
+            raise Unable(
+                "unable, this is a vehicle"
+                if aircraft
+                else f"unable, a driver does not {command.action.replace('_', ' ')}"
+            )
+        if isinstance(command, BehindCommand):
+            self._plan(command.command)
+            return self._behind.plan(command)
+        return self._ground.plan(command)
 
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return the driver's reaction to an advisory; None if there is none."""
@@ -101,8 +136,13 @@ class Driver(_SurfaceActor[Driven]):
         return self.kind.command_for(recommendation) is not None
 
     def attend(self) -> None:
-        """Take note of how far it has come."""
-        self.ground_operations.attend()
+        """Take the next step that is due, or raise `Unable`."""
+        try:
+            if (command := self._behind.due()) is not None:
+                self._carry_out(command)
+            self._ground.attend()
+        except (ValueError, ScenarioError) as error:
+            raise Unable(f"unable, {error}") from None
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from airhilt.commands import TaxiToCommand
@@ -182,4 +183,4 @@ def _said(command: TaxiToCommand) -> str:
 
 
 def _length_m(places: Sequence[Place]) -> float:
-    return sum(distance_m(a, b) for a, b in zip(places, places[1:], strict=False))
+    return sum(distance_m(a, b) for a, b in pairwise(places))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from airhilt.commands import TaxiCommand
+from airhilt.commands import Side, TaxiCommand
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.taxi_clearances import require_taxiway
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
 from airhilt.world.surface.ways import taxi_way
@@ -21,6 +22,9 @@ TOUCHDOWN_M = 450.0
 """Distance past the threshold at which a normal landing has touched down, in m."""
 BRAKING_M_S2 = 2.0
 """Deceleration of a firm rollout, in m/s2."""
+FIRM_BRAKING_M_S2 = 3.0
+"""Greatest deceleration for an exit that a controller names, in m/s2: about an autobrake's highest
+landing setting."""
 EXIT_SPEED_M_S = 8.0
 """Speed of the turn onto a taxiway, in m/s."""
 
@@ -48,6 +52,26 @@ def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:
     if nearest is None or distance_m(here, nearest.place) > HOLD_REACH_M:
         raise Unable(f"unable, not at a hold-short position of runway {runway}")
     return nearest
+
+
+def exits_named(
+    site: ScenarioSite, runway: RunwayEnd, name: str | None, side: Side | None
+) -> list[Exit]:
+    """Return the exits of a name, and of a side; all of them for None.
+
+    `Unable` says that the runway has no exit of that name or side.
+    """
+    exits = site.airport.exits(runway.ident)
+    if name is not None:
+        exits = [each for each in exits if name in (each.taxiway, each.position)]
+        if not exits:
+            require_taxiway(site.airport, name)
+            raise Unable(f"unable, runway {runway.ident} has no exit {name}")
+    if side is not None:
+        exits = [each for each in exits if (each.turn_rad > 0.0) == (side == "right")]
+        if not exits:
+            raise Unable(f"unable, no exit {name or ''} to the {side}".replace("  ", " "))
+    return exits
 
 
 def exit_for(

@@ -9,7 +9,7 @@ from airhilt.units import KNOT
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final, require_side_step
-from airhilt.world.flight.procedures.landing import Flare, Glide
+from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
 from airhilt.world.flight.procedures.takeoff import (
     GoAround,
     RejectedTakeoff,
@@ -104,6 +104,13 @@ class ProcedureCommands:
         final = Final(runway, self._control.systems.kind)
         final.require_reachable(self._control.state)
         self._approach(final, exit_path)
+
+    def leave_at(self, exit_path: Sequence[Place]) -> None:
+        """Leave the runway of the landing by another exit path than before."""
+        phase = self._control.phase
+        if not isinstance(phase, Glide | Flare | Rollout):
+            raise ValueError(f"leave_at in phase {phase.name}; expected glide, flare or rollout")
+        phase.leave_at(exit_path)
 
     def side_step(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
         """Leave the approach that is flown for that of another runway, with its exit path."""

@@ -8,15 +8,21 @@ from typing import ClassVar, Literal, Protocol, TypeVar, runtime_checkable
 from pydantic import BaseModel
 
 from airhilt.commands import (
+    BehindCommand,
     Command,
+    ContactCommand,
     ContinueCommand,
     CrossCommand,
+    EnterCommand,
+    FollowCommand,
+    GiveWayCommand,
     HoldPositionCommand,
     HoldShortCommand,
     MoveCommand,
     StandCommand,
     TaxiCommand,
     TaxiToCommand,
+    VacateCommand,
 )
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
@@ -26,10 +32,9 @@ from airhilt.shapes.lights import vehicle_lights
 from airhilt.shapes.mesh import Mesh
 from airhilt.shapes.sizes import Size
 from airhilt.shapes.vehicles import van
-from airhilt.units import FOOT, KNOT
+from airhilt.units import FOOT
 from airhilt.world.mover import Creature, Driven, Mover
 from airhilt.world.site import ScenarioSite
-from airhilt.world.surface.ways import taxi_way
 
 Category = Literal["vehicle", "wildlife"]
 M = TypeVar("M", bound=Mover)
@@ -134,8 +139,9 @@ class Kind(Protocol[M]):
 class DrivenKind:
     """Common part of the kinds of vehicles: drivers, who keep to the airport's ways.
 
-    A driver understands `TaxiCommand`, `HoldPositionCommand` and `ContinueCommand`, and follows the
-    recommendation to hold position. A kind that says nothing else about its looks is a van.
+    The driver of any kind carries out the commands about ways, such as `TaxiToCommand`; a kind
+    carries out what it understands besides. A driver follows the recommendation to hold position. A
+    kind that says nothing else about its looks is a van.
     """
 
     category: ClassVar[Literal["vehicle"]] = "vehicle"
@@ -143,9 +149,15 @@ class DrivenKind:
         TaxiCommand,
         TaxiToCommand,
         HoldPositionCommand,
+        ContinueCommand,
         HoldShortCommand,
         CrossCommand,
-        ContinueCommand,
+        EnterCommand,
+        VacateCommand,
+        FollowCommand,
+        GiveWayCommand,
+        BehindCommand,
+        ContactCommand,
     )
     dimensions: Size
 
@@ -157,22 +169,9 @@ class DrivenKind:
         """Return the name of its only mesh."""
         return BODY
 
-    def carry_out(self, body: Driven, command: Command, site: ScenarioSite) -> bool:
-        """Drive along a taxi way, stop, or go on; errors as of `Kind.carry_out`."""
-        match command:
-            case TaxiCommand(speed_kt=speed):
-                here = (body.state.latitude_rad, body.state.longitude_rad)
-                way = taxi_way(site, here, command, body.dimensions.length_m / 2.0)
-                body.drive(way, None if speed is None else speed * KNOT)
-            case HoldPositionCommand() | HoldShortCommand():
-                if body.phase != "driving":
-                    return False
-                body.stop()
-            case ContinueCommand() | CrossCommand():
-                body.resume()
-            case _:
-                raise ValueError(f"a driver does not {command.action.replace('_', ' ')}")
-        return True
+    def carry_out(self, body: Driven, command: Command, site: ScenarioSite) -> bool:  # noqa: ARG002
+        """Raise ValueError: a driver moves the body along ways, and has no other commands."""
+        raise ValueError(f"a driver does not {command.action.replace('_', ' ')}")
 
     def command_for(self, recommendation: Recommendation) -> Command | None:
         """Return the command to hold position, if that is recommended."""

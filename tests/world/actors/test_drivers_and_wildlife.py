@@ -92,7 +92,7 @@ def test_a_driver_who_never_complies_does_not(driver: Driver) -> None:
 
 
 def test_a_driver_says_what_it_cannot_do(driver: Driver) -> None:
-    with pytest.raises(Unable, match="a driver does not take off"):
+    with pytest.raises(Unable, match="unable, this is a vehicle"):
         tell(driver, "take_off", runway="01")
     with pytest.raises(Unable, match="no taxi route"):
         tell(driver, "taxi", to={"type": "node", "node": "01/19 at D"}, via=["H"])

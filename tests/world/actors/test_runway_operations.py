@@ -69,7 +69,8 @@ class Plane:
             latitude_rad, longitude_rad = self.place
             height_agl_m = self.height_m
             altitude_m = self.height_m
-            track_rad = heading
+            track_rad = heading_rad = heading
+            ground_speed_m_s = speed
             calibrated_airspeed_m_s = speed
 
         return Now
@@ -287,8 +288,8 @@ def test_it_holds_its_position_when_advised_and_when_told() -> None:
 
 
 def test_what_the_aircraft_cannot_do_is_said_and_does_not_end_the_run() -> None:
-    plane = Plane("takeoff_roll", refuses="hold_position")
-    with pytest.raises(Unable, match="unable, hold_position in phase takeoff_roll"):
+    plane = Plane("takeoff_roll", refuses="reject_takeoff")
+    with pytest.raises(Unable, match="unable, reject_takeoff in phase takeoff_roll"):
         tell(crew_of(plane), "hold_position")
 
 
@@ -321,6 +322,7 @@ def test_held_on_its_way_in_and_cleared_again_it_does_not_go_back_to_the_hold() 
     whole = plane.told[0][1]
     tell(crew, "cancel_takeoff")
     plane.phase, plane.place = "standing", whole[len(whole) // 2]
+    plane.heading_deg = 30.0
     tell(crew, "take_off", runway="01")
     assert plane.names == ["taxi", "hold_position", "taxi"]
     again = plane.told[-1][1]

@@ -59,6 +59,10 @@ class Glide(FlightPhase):
         self._airspeed = kind.speeds.minimum_clean_kt * KNOT
         self._captured = False
 
+    def leave_at(self, exit_path: Sequence[Place]) -> None:
+        """Leave the runway by another path."""
+        self.exit_path = exit_path
+
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
         systems, final = self._systems, self.final
@@ -116,6 +120,10 @@ class Flare(FlightPhase):
         self._idle_part = flare.idle_height_part
         self._decrab_height = flare.decrab_height_m
 
+    def leave_at(self, exit_path: Sequence[Place]) -> None:
+        """Leave the runway by another path."""
+        self.exit_path = exit_path
+
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
         systems, final = self._systems, self.final
@@ -148,16 +156,20 @@ class Rollout(FlightPhase):
     def __init__(self, systems: AircraftSystems, final: Final, exit_path: Sequence[Place]) -> None:
         super().__init__(systems)
         self._final = final
-        ground = systems.kind.ground
-        self._deceleration = ground.deceleration_m_s2
+        self._deceleration = systems.kind.ground.deceleration_m_s2
+        self.leave_at(exit_path)
+        systems.ground.reset(systems.autopilot.steady_elevator())
+        systems.airframe.set_speed_brakes(1.0)
+        systems.airframe.set_ground_spoilers(1.0)
+
+    def leave_at(self, exit_path: Sequence[Place]) -> None:
+        """Leave the runway by another path."""
+        ground = self._systems.kind.ground
         self._exit = (
             TaxiPath(exit_path, ground.taxi_speed_kt * KNOT, ground.look_ahead_m)
             if exit_path
             else None
         )
-        systems.ground.reset(systems.autopilot.steady_elevator())
-        systems.airframe.set_speed_brakes(1.0)
-        systems.airframe.set_ground_spoilers(1.0)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""

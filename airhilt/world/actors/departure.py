@@ -1,0 +1,284 @@
+"""Departure of a crew: to line up, backtrack and take off, and to reject a takeoff."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
+
+from airhilt.commands import (
+    BacktrackCommand,
+    CancelTakeoffCommand,
+    Command,
+    HoldPositionCommand,
+    LineUpCommand,
+    TakeOffCommand,
+)
+from airhilt.geodesy.wgs84 import Place, beside, onward
+from airhilt.units import FOOT, KNOT
+from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.ground_operations import Act, GroundOperations
+from airhilt.world.actors.runway_operations import FinalApproach, RunwayOperations
+from airhilt.world.actors.taxi_paths import hold_beside
+from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.runway import RunwayEnd
+
+if TYPE_CHECKING:
+    from airhilt.world.surface.layout import Hold
+
+DECISION_SPEED_PART = 0.95
+"""V1 as a part of the rotation speed: on dry runways the two lie within a few knots."""
+LINED_UP_RAD = math.radians(15.0)
+"""Greatest angle to the course of a runway at which an aircraft is lined up on it, in rad."""
+TURN_EDGE_M = 6.0
+"""Distance of the middle of a turn on a runway from its edge, in m; assumed."""
+LEAST_TURN_M = 6.0
+"""Least radius of a turn on a runway, in m; assumed."""
+TURN_FROM_START_M = 45.0
+"""Distance from the beginning of a runway at which a backtracking aircraft turns, in m; assumed."""
+ASIDE_M = 60.0
+"""Length of the way from the centre line of a runway to its side before a turn, in m; assumed."""
+ALIGNED_M = 40.0
+"""Length of the straight on the centre line at the end of a turn, in m."""
+TURN_STEPS = 12
+"""Number of straight pieces of such a turn."""
+
+
+class Departure:
+    """Carries out the commands of one crew from the hold line to the takeoff roll.
+
+    What cannot be carried out raises Unable, ValueError or ScenarioError before anything changes.
+    """
+
+    def __init__(
+        self,
+        aircraft: Aircraft,
+        site: ScenarioSite,
+        ground: GroundOperations,
+        runways: RunwayOperations,
+    ) -> None:
+        self._aircraft = aircraft
+        self._site = site
+        self._ground = ground
+        self._runways = runways
+        self._next: Callable[[], bool] | None = None
+        """Next step, tried several times a second until it returns True."""
+
+    def plan(self, command: Command) -> Act | None:
+        """Return what carries out a command; None for one that is not about a departure."""
+        match command:
+            case LineUpCommand(runway=runway):
+                return self._plan_line_up(runway)
+            case TakeOffCommand(runway=runway, climb_to_ft=altitude):
+                return self._plan_take_off(runway, altitude * FOOT)
+            case CancelTakeoffCommand():
+                return self._plan_cancel()
+            case HoldPositionCommand() if self._aircraft.phase == "takeoff_roll":
+                return self._plan_cancel()
+            case BacktrackCommand(runway=runway):
+                return self._plan_backtrack(runway)
+        return None
+
+    def forget(self) -> None:
+        """Take no further step of what was begun."""
+        self._next = None
+
+    def attend(self) -> None:
+        """Take the next step if it is due, or raise `Unable`."""
+        following, self._next = self._next, None
+        if following is not None and not following() and self._next is None:
+            self._next = following
+
+    def cancel_takeoff(self) -> bool:
+        """Cancel a takeoff, or reject it below the decision speed; return False above that."""
+        try:
+            self._plan_cancel()()
+        except Unable:
+            return False
+        return True
+
+    # --- plans --------------------------------------------------------------------------------
+
+    def _plan_cancel(self) -> Act:
+        aircraft = self._aircraft
+        match aircraft.phase:
+            case "takeoff_roll":
+                decision = DECISION_SPEED_PART * aircraft.kind.speeds.rotate_kt * KNOT
+                if aircraft.state.calibrated_airspeed_m_s > decision:
+                    raise Unable("unable, above V one")
+                do = aircraft.procedures.reject_takeoff
+            case "line_up" | "taxi":
+                do = aircraft.procedures.hold_position
+            case "lined_up" | "standing":
+                do = _nothing
+            case "rejected_takeoff":
+                raise Unable("unable, takeoff rejected already")
+            case _ if aircraft.on_ground and aircraft.phase != "rotate":
+                raise Unable("unable, we have landed")
+            case _:
+                raise Unable("unable, already airborne")
+
+        def cancel() -> None:
+            do()
+            self._next = None
+
+        return cancel
+
+    def _plan_line_up(self, runway: str) -> Act:
+        self._require_on_ground()
+        end, strip = self._site.runway(runway), self._site.airport.strip_of(runway).name
+        phase = self._aircraft.phase
+        if phase in ("lined_up", "line_up"):
+            bound = self._runways.bound_runway
+            if bound not in (None, end.ident):
+                raise Unable(f"unable, lined up on runway {bound}")
+            return partial(self._wait, runway, None)
+        if phase == "taxi" and self._ground.leads_to(strip):
+            return partial(self._wait, runway, self._line_up_once_standing)
+        if self._is_lined_up(end):
+            return partial(self._wait, runway, None)
+        try:
+            hold = hold_beside(self._site, self._here, runway)
+        except Unable:
+            return self._plan_taxi_first(runway)
+        return self._plan_entry(hold, runway)
+
+    def _plan_entry(self, hold: Hold, runway: str) -> Act:
+        """Return what lines up from a hold, or from where the aircraft is beyond it."""
+        here = self._here
+        final = FinalApproach(self._site.airport, self._site.runway(runway))
+        path = self._site.airport.entry_path(hold, runway)
+        # After a hold on the way in, the aircraft goes on from there, not from the hold line.
+        aside_m = abs(final.right_m(here))
+        ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
+        return partial(self._taxi_on, [here, *(ahead or path[-1:])], runway)
+
+    def _taxi_on(self, path: list[Place], runway: str) -> None:
+        self._aircraft.procedures.taxi(path, then="lined_up")
+        self._ground.forget()
+        self._wait(runway, None)
+
+    def _wait(self, runway: str, following: Callable[[str], bool] | None) -> None:
+        self._runways.bind(runway)
+        self._next = None if following is None else partial(following, runway)
+
+    def _plan_taxi_first(self, runway: str) -> Act:
+        """Return what taxies to the holding position, and then lines up."""
+        if self._ground.stand is not None:
+            raise Unable("unable, still at the stand")
+        to_hold = self._ground.plan_to_hold(runway)
+
+        def taxi() -> None:
+            to_hold()
+            self._wait(runway, self._line_up_once_standing)
+
+        return taxi
+
+    def _plan_take_off(self, runway: str, climb_to_m: float) -> Act:
+        line_up = self._plan_line_up(runway)
+
+        def take_off() -> None:
+            line_up()
+            self._next = partial(self._roll_once_lined_up, runway, climb_to_m)
+            self.attend()
+
+        return take_off
+
+    def _plan_backtrack(self, runway: str) -> Act:
+        self._require_on_ground()
+        airport, end = self._site.airport, self._site.runway(runway)
+        final = FinalApproach(airport, end)
+        path = [self._here]
+        turns_first = False
+        if self._ground.is_on(airport.strip_of(runway).name):
+            angle = abs(final.angle_rad(self._aircraft.state.heading_rad))
+            turns_first = angle < math.pi / 2.0
+        else:
+            hold = hold_beside(self._site, self._here, runway)
+            inward = airport.taxiways.to_centreline(hold.name, hold.runway)
+            path += [airport.node(name) for name in inward]
+        from_start_m = end.displaced_m - final.before_m(path[-1])
+        path += _back_along(end, from_start_m, turns_first=turns_first)
+        return partial(self._taxi_on, path, runway)
+
+    # --- steps --------------------------------------------------------------------------------
+
+    def _line_up_once_standing(self, runway: str) -> bool:
+        if self._aircraft.phase != "standing" or not self._ground.has_arrived:
+            return False
+        self._plan_entry(hold_beside(self._site, self._here, runway), runway)()
+        return True
+
+    def _roll_once_lined_up(self, runway: str, climb_to_m: float) -> bool:
+        end = self._site.runway(runway)
+        if self._aircraft.phase == "standing" and not self._is_lined_up(end):
+            if self._ground.has_arrived:
+                self._plan_entry(hold_beside(self._site, self._here, runway), runway)()
+            return False
+        if self._aircraft.phase not in ("lined_up", "standing"):
+            return False
+        self._aircraft.procedures.take_off(self._runways.bind(runway), climb_to_m)
+        return True
+
+    # --- where it is --------------------------------------------------------------------------
+
+    @property
+    def _here(self) -> Place:
+        state = self._aircraft.state
+        return state.latitude_rad, state.longitude_rad
+
+    def _require_on_ground(self) -> None:
+        """Raise `Unable` unless the aircraft can move to a runway now."""
+        match self._aircraft.phase:
+            case "takeoff_roll" | "rotate":
+                raise Unable("unable, already rolling")
+            case "rollout":
+                raise Unable("unable, still rolling")
+            case "rejected_takeoff":
+                raise Unable("unable, rejecting takeoff")
+            case _ if not self._aircraft.on_ground:
+                raise Unable("unable, already airborne")
+
+    def _is_lined_up(self, end: RunwayEnd) -> bool:
+        """Return whether the aircraft stands on a runway, along its course."""
+        final, here = FinalApproach(self._site.airport, end), self._here
+        angle = abs(final.angle_rad(self._aircraft.state.heading_rad))
+        rolled_m = end.displaced_m - final.before_m(here)
+        return (
+            angle < LINED_UP_RAD
+            and abs(final.right_m(here)) < end.width_m / 2.0
+            and 0.0 <= rolled_m < end.length_m
+        )
+
+
+def _back_along(end: RunwayEnd, from_start_m: float, *, turns_first: bool) -> list[Place]:
+    """Return the way along a runway to its beginning, and round to its course there.
+
+    It begins on the centre line, so far from the beginning of the runway; with a turn there, if it
+    points along the course. `Unable` says that there is nothing to go back.
+    """
+    radius_m = max(end.width_m / 2.0 - TURN_EDGE_M, LEAST_TURN_M)
+    turn_m = TURN_FROM_START_M + radius_m
+    if from_start_m < turn_m + ASIDE_M:
+        raise Unable(f"unable, already at the beginning of runway {end.ident}")
+
+    def at(along_m: float, right_m: float) -> Place:
+        return beside(onward(end.start, end.course_rad, along_m), end.course_rad, right_m)
+
+    def half_circle(middle_m: float, side: float) -> list[Place]:
+        steps = [math.pi * step / TURN_STEPS for step in range(TURN_STEPS + 1)]
+        return [
+            at(middle_m - side * radius_m * math.sin(step), -side * radius_m * math.cos(step))
+            for step in steps
+        ]
+
+    first = half_circle(from_start_m + ASIDE_M, -1.0) if turns_first else []
+    aside_m = turn_m + ASIDE_M if turns_first else min(from_start_m, turn_m + 2.0 * ASIDE_M) - 1.0
+    ahead = [at(turn_m + ASIDE_M, 0.0), at(turn_m + ASIDE_M + ALIGNED_M, 0.0)]
+    return [*first, at(aside_m, -radius_m), *half_circle(turn_m, 1.0), *ahead]
+
+
+def _nothing() -> None:
+    """Do what is done already."""
