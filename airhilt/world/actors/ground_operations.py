@@ -69,6 +69,8 @@ class GroundOperations:
         self._errand: Errand | None = None
         self._next: TaxiToCommand | None = None
         """Clearance that is followed once the runway has been left."""
+        self._told: TaxiToCommand | None = None
+        """Clearance that is followed."""
         self._driven_to_m = 0.0
         """Where the body stops by itself, in metres along its way."""
         self._gives_way: Passage | None = None
@@ -113,7 +115,7 @@ class GroundOperations:
 
     def forget(self) -> None:
         """Forget the way, and what was to come after it: something else moves the body now."""
-        self._errand = self._next = self._gives_way = self._leader = None
+        self._errand = self._next = self._told = self._gives_way = self._leader = None
 
     def attend(self) -> None:
         """Note how far it has come, and take the next step that is due, or raise `Unable`."""
@@ -184,10 +186,19 @@ class GroundOperations:
             way_to(self._site.airport, self._here, None, command)
             return partial(setattr, self, "_next", command)
         self._require_free()
-        return partial(self._begin, self._errand_to(command))
+        errand = self._errand_to(command)
+
+        def begin() -> None:
+            told = self._told
+            self._begin(errand)
+            self._told = command if command.runway or command.place else told
+
+        return begin
 
     def _errand_to(self, command: TaxiToCommand) -> Errand:
-        """Return the errand of a taxi clearance from here."""
+        """Return the errand of a taxi clearance from here; one without an end changes the way."""
+        if command.runway is None and command.place is None and self._told is not None:
+            command = self._told.model_copy(update={"via": command.via})
         airport = self._site.airport
         way = way_to(airport, self._here, self._body.state.heading_rad, command)
         short_m = self._nose_m + NOSE_MARGIN_M if way.is_hold else 0.0

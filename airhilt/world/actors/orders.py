@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast, get_args
+from typing import NamedTuple, cast, get_args
+
+import pydantic
 
 from airhilt.commands import (
     AltitudeCommand,
     ApproachCommand,
     BacktrackCommand,
+    BehindCommand,
     CancelTakeoffCommand,
     CircuitLeg,
     Command,
     ContactCommand,
+    ContinueCommand,
     CrossCommand,
     DirectCommand,
+    EnterCommand,
     ExtendCommand,
     FollowCommand,
     GiveWayCommand,
@@ -49,6 +55,20 @@ NOTHING_MOVES: frozenset[Action] = frozenset(
 actor does anyway."""
 
 
+BEHIND = re.compile(
+    r"(?:behind|after|following)\s+(?:the\s+)?(?!passing|reaching|leaving|you\b)(.+?)"
+    r"(?:\s+(?:has|have|is|passes|lands|departs|vacates)\b.*)?"
+)
+"""Condition to wait for other traffic (ICAO Doc 4444, 12.2.7: "behind landing 737")."""
+READY = re.compile(r"(?:when|whenever|once|as soon as)\s+(?:you(?:'re| are)?\s+)?(?:ready|able)")
+"""Condition that holds as soon as the instruction has been heard."""
+DOES: Mapping[str, frozenset[str]] = {
+    "landing": frozenset({"landing", "arriving", "arrival", "final"}),
+    "departing": frozenset({"departing", "departure", "takeoff"}),
+}
+"""What other traffic does when it passes, and the words for it."""
+
+
 class NotUnderstood(Exception):
     """An instruction lacks what is needed to do it; the text is what its listener asks."""
 
@@ -74,22 +94,43 @@ def orders_of(
     Headings are magnetic, and are flown as true tracks: without wind. The variation is in degrees,
     positive east. An instruction without a runway means the one that the actor is going to use. A
     level that comes with a takeoff or a go-around is the level that it climbs to. A level to cross
-    a fix at, or not to pass, is no level to fly to.
+    a fix at, or not to pass, is no level to fly to. What a call with a taxi clearance says about
+    runways to cross and where to hold short is part of that clearance.
     """
     given = tuple(instructions)
     now = [each for each in given if not each.is_conditional]
     levels = (each for each in now if each.action == "altitude" and each.bound is None)
     level_ft = next((each.altitude_ft for each in levels if each.altitude_ft is not None), None)
     climbs = any(each.action in ("cleared_for_takeoff", "go_around") for each in now)
+    on_the_way = _on_the_way(now)
     orders = []
     for each in given:
-        if each.action in NOTHING_MOVES or (climbs and each.action == "altitude"):
+        is_part = on_the_way is not None and each.action in ("cross", "hold_short")
+        is_level = climbs and each.action == "altitude"
+        if each.action in NOTHING_MOVES or is_level or (is_part and not each.is_conditional):
             orders.append(Order(each))
-        elif each.is_conditional:
-            orders.append(Order(each, question=f"say again, {each.condition}"))
         else:
-            orders.append(_order(each, bound_runway, level_ft, variation_deg))
+            orders.append(_order(each, bound_runway, level_ft, variation_deg, on_the_way))
     return tuple(orders)
+
+
+def _on_the_way(given: Sequence[Instruction]) -> _OnTheWay | None:
+    """Return what a taxi clearance says about its way; None if the call has none."""
+    if not any(each.action == "taxi" and (each.runway or each.position) for each in given):
+        return None
+    short = [each.runway or each.hold_short or each.position for each in given
+             if each.action == "hold_short"]  # fmt: skip
+    return _OnTheWay(
+        cross=tuple(each.runway for each in given if each.action == "cross" and each.runway),
+        hold_short=tuple(name for name in short if name is not None),
+    )
+
+
+class _OnTheWay(NamedTuple):
+    """Runways and taxiways on the way of a taxi clearance to cross, and to hold short of."""
+
+    cross: tuple[str, ...]
+    hold_short: tuple[str, ...]
 
 
 def _order(
@@ -97,14 +138,42 @@ def _order(
     bound_runway: str | None,
     level_ft: float | None,
     variation_deg: float,
+    on_the_way: _OnTheWay | None,
 ) -> Order:
     try:
         command = _command(instruction, bound_runway, level_ft, variation_deg)
+        if on_the_way is not None and isinstance(command, TaxiToCommand):
+            command = TaxiToCommand.model_validate({**command.model_dump(), **on_the_way._asdict()})
+        if command is not None and instruction.condition is not None:
+            command = _once(instruction.condition, command)
     except NotUnderstood as asks:
         return Order(instruction, question=str(asks))
+    except pydantic.ValidationError:
+        return Order(instruction, question="say again")
     if command is None:
         return Order(instruction, unable=f"unable to {instruction.action.replace('_', ' ')}")
     return Order(instruction, command)
+
+
+def _once(condition: str, command: Command) -> Command:
+    """Return a command that waits for a condition; `NotUnderstood` asks about others than these.
+
+    Behind, or after, other traffic; or when the addressee is ready, which it is.
+    """
+    if READY.fullmatch(condition):
+        return command
+    match = BEHIND.fullmatch(condition)
+    whom = "" if match is None else match[1]
+    doing = next((does for does, words in DOES.items() if words & set(whom.split())), "passing")
+    is_traffic = bool(set(whom.split()) - DOES.get(doing, frozenset()))
+    if not is_traffic:
+        raise NotUnderstood(f"say again, {condition}")
+    try:
+        return BehindCommand.model_validate(
+            {"action": "behind", "whom": whom, "traffic": doing, "command": command.model_dump()}
+        )
+    except pydantic.ValidationError:
+        raise NotUnderstood(f"say again, {condition}") from None
 
 
 def _command(
@@ -201,7 +270,11 @@ def _command(
             return HoldShortCommand(action="hold_short", runway=instruction.runway, taxiway=taxiway)
         case "cross":
             return CrossCommand(action="cross", runway=instruction.runway, at=place)
+        case "proceed" if instruction.runway is not None:
+            return EnterCommand(action="enter", runway=instruction.runway, at=place)
         case "taxi" | "proceed":
+            if instruction.runway is None and place is None and not instruction.via:
+                return ContinueCommand(action="continue")
             return TaxiToCommand(
                 action="taxi_to", runway=instruction.runway, place=place, via=instruction.via
             )

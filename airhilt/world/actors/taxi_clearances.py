@@ -95,7 +95,7 @@ def _ends(airport: Layout, command: TaxiToCommand) -> list[str]:
     if command.runway is not None:
         return _holds_for(airport, command.runway, command.place, command.via)
     if command.place is None:
-        raise Unable("unable, say where to taxi to")
+        raise Unable("say again, taxi to where")
     if found := nodes_of(airport, command.place):
         return found
     known = [*airport.stands, *sorted({edge.taxiway for edge in airport.airport.taxiways.edges})]

@@ -126,7 +126,8 @@ def test_a_condition_that_is_lost_is_not_waited_for() -> None:
 
 def test_a_condition_that_was_not_said_is() -> None:
     taken = sense(BEHIND, AT_ONCE)
-    assert (taken.kind, taken.commands) == ("otherwise", ())
+    assert taken.kind == "otherwise"
+    assert [command.action for command in taken.commands] == ["behind"]
 
 
 def test_a_condition_in_other_words_is_the_same() -> None:

@@ -58,7 +58,7 @@ def test_a_level_with_a_takeoff_is_where_it_climbs_to() -> None:
 
 def test_what_is_missing_is_asked_for() -> None:
     assert order(Instruction("cleared_to_land")).question == "say runway"
-    assert order(Instruction("line_up", "01", condition="behind the landing cessna")).question
+    assert order(Instruction("line_up", "01", condition="after passing LAM at 35")).question
 
 
 def test_headings_that_are_said_are_magnetic() -> None:
