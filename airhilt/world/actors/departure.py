@@ -15,11 +15,13 @@ from airhilt.commands import (
     LineUpCommand,
     TakeOffCommand,
 )
-from airhilt.geodesy.wgs84 import Place, beside, onward
+from airhilt.errors import ScenarioError
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.ground_operations import Act, GroundOperations
 from airhilt.world.actors.runway_operations import FinalApproach, RunwayOperations
+from airhilt.world.actors.runway_turns import RunwayTurns
 from airhilt.world.actors.taxi_paths import hold_beside
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
@@ -32,18 +34,6 @@ DECISION_SPEED_PART = 0.95
 """V1 as a part of the rotation speed: on dry runways the two lie within a few knots."""
 LINED_UP_RAD = math.radians(15.0)
 """Greatest angle to the course of a runway at which an aircraft is lined up on it, in rad."""
-TURN_EDGE_M = 6.0
-"""Distance of the middle of a turn on a runway from its edge, in m; assumed."""
-LEAST_TURN_M = 6.0
-"""Least radius of a turn on a runway, in m; assumed."""
-TURN_FROM_START_M = 45.0
-"""Distance from the beginning of a runway at which a backtracking aircraft turns, in m; assumed."""
-ASIDE_M = 60.0
-"""Length of the way from the centre line of a runway to its side before a turn, in m; assumed."""
-ALIGNED_M = 40.0
-"""Length of the straight on the centre line at the end of a turn, in m."""
-TURN_STEPS = 12
-"""Number of straight pieces of such a turn."""
 
 
 class Departure:
@@ -115,7 +105,9 @@ class Departure:
                 do = _nothing
             case "rejected_takeoff":
                 raise Unable("unable, takeoff rejected already")
-            case _ if aircraft.on_ground and aircraft.phase != "rotate":
+            case "rotate" if aircraft.on_ground:
+                raise Unable("unable, above V one")
+            case _ if aircraft.on_ground:
                 raise Unable("unable, we have landed")
             case _:
                 raise Unable("unable, already airborne")
@@ -140,7 +132,7 @@ class Departure:
         if self._is_lined_up(end):
             return partial(self._wait, runway, None)
         try:
-            hold = hold_beside(self._site, self._here, runway)
+            hold = self._hold(runway)
         except Unable:
             return self._plan_taxi_first(runway)
         return self._plan_entry(hold, runway)
@@ -149,7 +141,10 @@ class Departure:
         """Return what lines up from a hold, or from where the aircraft is beyond it."""
         here = self._here
         final = FinalApproach(self._site.airport, self._site.runway(runway))
-        path = self._site.airport.entry_path(hold, runway)
+        try:
+            path = self._site.airport.entry_path(hold, runway)
+        except ScenarioError:
+            raise Unable(f"unable, at the far end of runway {runway}") from None
         # After a hold on the way in, the aircraft goes on from there, not from the hold line.
         aside_m = abs(final.right_m(here))
         ahead = [place for place in path if abs(final.right_m(place)) < aside_m]
@@ -196,11 +191,13 @@ class Departure:
             angle = abs(final.angle_rad(self._aircraft.state.heading_rad))
             turns_first = angle < math.pi / 2.0
         else:
-            hold = hold_beside(self._site, self._here, runway)
+            hold = self._hold(runway)
             inward = airport.taxiways.to_centreline(hold.name, hold.runway)
             path += [airport.node(name) for name in inward]
         from_start_m = end.displaced_m - final.before_m(path[-1])
-        path += _back_along(end, from_start_m, turns_first=turns_first)
+        turns = RunwayTurns(end)
+        back = turns.to_beginning(from_start_m)
+        path += [*turns.back_from(from_start_m), *back] if turns_first else back
         return partial(self._taxi_on, path, runway)
 
     # --- steps --------------------------------------------------------------------------------
@@ -208,14 +205,14 @@ class Departure:
     def _line_up_once_standing(self, runway: str) -> bool:
         if self._aircraft.phase != "standing" or not self._ground.has_arrived:
             return False
-        self._plan_entry(hold_beside(self._site, self._here, runway), runway)()
+        self._plan_entry(self._hold(runway), runway)()
         return True
 
     def _roll_once_lined_up(self, runway: str, climb_to_m: float) -> bool:
         end = self._site.runway(runway)
         if self._aircraft.phase == "standing" and not self._is_lined_up(end):
             if self._ground.has_arrived:
-                self._plan_entry(hold_beside(self._site, self._here, runway), runway)()
+                self._plan_entry(self._hold(runway), runway)()
             return False
         if self._aircraft.phase not in ("lined_up", "standing"):
             return False
@@ -228,6 +225,10 @@ class Departure:
     def _here(self) -> Place:
         state = self._aircraft.state
         return state.latitude_rad, state.longitude_rad
+
+    def _hold(self, runway: str) -> Hold:
+        """Return the holding position at which the aircraft stands, or raise `Unable`."""
+        return hold_beside(self._site, self._here, runway, self._aircraft.state.heading_rad)
 
     def _require_on_ground(self) -> None:
         """Raise `Unable` unless the aircraft can move to a runway now."""
@@ -251,33 +252,6 @@ class Departure:
             and abs(final.right_m(here)) < end.width_m / 2.0
             and 0.0 <= rolled_m < end.length_m
         )
-
-
-def _back_along(end: RunwayEnd, from_start_m: float, *, turns_first: bool) -> list[Place]:
-    """Return the way along a runway to its beginning, and round to its course there.
-
-    It begins on the centre line, so far from the beginning of the runway; with a turn there, if it
-    points along the course. `Unable` says that there is nothing to go back.
-    """
-    radius_m = max(end.width_m / 2.0 - TURN_EDGE_M, LEAST_TURN_M)
-    turn_m = TURN_FROM_START_M + radius_m
-    if from_start_m < turn_m + ASIDE_M:
-        raise Unable(f"unable, already at the beginning of runway {end.ident}")
-
-    def at(along_m: float, right_m: float) -> Place:
-        return beside(onward(end.start, end.course_rad, along_m), end.course_rad, right_m)
-
-    def half_circle(middle_m: float, side: float) -> list[Place]:
-        steps = [math.pi * step / TURN_STEPS for step in range(TURN_STEPS + 1)]
-        return [
-            at(middle_m - side * radius_m * math.sin(step), -side * radius_m * math.cos(step))
-            for step in steps
-        ]
-
-    first = half_circle(from_start_m + ASIDE_M, -1.0) if turns_first else []
-    aside_m = turn_m + ASIDE_M if turns_first else min(from_start_m, turn_m + 2.0 * ASIDE_M) - 1.0
-    ahead = [at(turn_m + ASIDE_M, 0.0), at(turn_m + ASIDE_M + ALIGNED_M, 0.0)]
-    return [*first, at(aside_m, -radius_m), *half_circle(turn_m, 1.0), *ahead]
 
 
 def _nothing() -> None:

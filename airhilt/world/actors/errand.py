@@ -21,6 +21,8 @@ ARRIVED_M = 3.0
 """Distance to the end of a way, in m, within which it has been reached."""
 OVER_LINE_M = 1.0
 """Distance of the nose over a hold line, in m, from which it has been passed."""
+ON_FROM_M = 2.0
+"""Distance from its beginning or end, in m, within which a way is on a runway from there."""
 AT_LINE_M = 5.0
 """Distance in m within which a way enters a protected area at a hold line."""
 
@@ -88,6 +90,11 @@ class Errand:
         return self.limit_m - self.along_m < STANDS_AT_M
 
     @property
+    def has_stops(self) -> bool:
+        """True if the body has to stop before the end."""
+        return self.limit_m < self.end_m - ARRIVED_M
+
+    @property
     def is_done(self) -> bool:
         """True if the body has come to the end."""
         return self.end_m - self.along_m < ARRIVED_M
@@ -139,6 +146,13 @@ class Errand:
             if not self._is_ahead(each)
         )
 
+    def stays_on(self, strip: str, until_m: float) -> bool:
+        """Return whether the way begins on a runway and does not leave it before a distance."""
+        return any(
+            each.runway == strip and each.enter_m < ON_FROM_M and each.leave_m > until_m - ON_FROM_M
+            for each in self._route.crossings
+        )
+
     def has_crossed(self, strip: str) -> bool:
         """Return whether the way has led over a runway."""
         return any(
@@ -155,6 +169,14 @@ class Errand:
         if crossing is not None:
             self._cleared.add(crossing)
         return crossing is not None
+
+    def clear_from_runway(self, strip: str) -> None:
+        """Allow the runways that cross the one on which the way begins, until it leaves that."""
+        leave_m = max(
+            (each.leave_m for each in self._route.crossings
+             if each.runway == strip and each.enter_m < ON_FROM_M), default=0.0
+        )  # fmt: skip
+        self._cleared |= {each for each in self._route.crossings if each.enter_m < leave_m}
 
     def hold_short_of_runway(self, strip: str) -> None:
         """Stop before a runway that is still ahead."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -21,11 +22,13 @@ from airhilt.commands import (
     TaxiToCommand,
     VacateCommand,
 )
-from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, distance_m
+from airhilt.errors import ScenarioError
+from airhilt.geodesy.wgs84 import Place, azimuth, distance_and_azimuth, distance_m
 from airhilt.units import KNOT, wrap_angle
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.errand import Errand
 from airhilt.world.actors.ground_bodies import GroundBody
+from airhilt.world.actors.runway_turns import RunwayTurns
 from airhilt.world.actors.taxi_clearances import (
     hold_of,
     require_taxiway,
@@ -40,6 +43,7 @@ from airhilt.world.surface.ways import NOSE_MARGIN_M
 if TYPE_CHECKING:
     from airhilt.world.actors.actor import Actor
     from airhilt.world.surface.layout import Hold
+    from airhilt.world.surface.strips import RunwayStrip
 
 AT_STAND_M = 5.0
 """Distance from a stand within which an aircraft is parked on it, in m."""
@@ -161,7 +165,7 @@ class GroundOperations:
 
     @staticmethod
     def _require_no_stop(errand: Errand) -> None:
-        if errand.limit_m < errand.end_m:
+        if errand.has_stops:
             raise Unable(f"unable, runway {errand.next_runway} is on our way")
 
     # --- to taxi ------------------------------------------------------------------------------
@@ -210,15 +214,14 @@ class GroundOperations:
             self._plan_hold_short_on(errand, name)()
         return errand
 
-    def plan_way(self, places: Sequence[Place], cleared: Iterable[str]) -> Act:
-        """Return what follows a way from here, over the runways of some names."""
+    def _plan_way_over(self, strip: str, places: Sequence[Place]) -> Act:
+        """Return what follows a way from here over a runway, by its whole name."""
         errand = self._errand_on([self._here, *places])
-        for strip in cleared:
-            errand.clear_next(strip)
+        errand.clear_next(strip)
         return partial(self._begin, errand)
 
     def _plan_hold_position(self) -> Act:
-        self._require_free(or_rolling=True)
+        self._require_free()
 
         def hold() -> None:
             self._body.stop()
@@ -336,7 +339,7 @@ class GroundOperations:
         way = airport.way_across(hold)
         if way is None:
             raise Unable(f"unable, taxiway {hold.taxiway} does not lead across runway {runway}")
-        return self.plan_way(self._cut(*way), [hold.runway])
+        return self._plan_way_over(hold.runway, self._cut(*way))
 
     def _plan_enter(self, runway: str, at: str | None) -> Act:
         """Return what drives on to a runway, from the hold line here or from another."""
@@ -355,7 +358,7 @@ class GroundOperations:
             places = way_to(airport, self._here, heading_rad, to_hold).places[:-1]
         inward = airport.taxiways.to_centreline(hold.name, strip)
         places += [hold.place, *(airport.node(name) for name in inward[1:])]
-        return self.plan_way(places, [strip])
+        return self._plan_way_over(strip, places)
 
     def _plan_vacate(self, command: VacateCommand) -> Act:
         """Return what leaves the runway on which the body stands or moves."""
@@ -368,26 +371,60 @@ class GroundOperations:
         goes = errand is not None and errand.is_crossing(strip.name) and not errand.is_done
         if errand is not None and goes and command.exit is None and command.side is None:
             return partial(self._go_on, errand)
-        ways: list[tuple[float, list[Place]]] = []
+        ways = [*self._exits_ahead(strip, command), *self._exits_here(strip, command)]
+        if not ways:
+            where = command.exit or (f"to the {command.side}" if command.side else "here")
+            raise Unable(f"unable, no way off the runway {where}")
+        _, path = min(ways, key=lambda way: way[0])
+        errand = self._errand_on([self._here, *path])
+        errand.clear_from_runway(strip.name)
+        return partial(self._begin, errand)
+
+    def _exits_ahead(
+        self, strip: RunwayStrip, command: VacateCommand
+    ) -> Iterator[tuple[float, list[Place]]]:
+        """Yield the lengths of ways along a runway to exits that lead off it further on, and these.
+
+        Those for which the body has to turn round first are longer by `TURN_COST_M`.
+        """
         heading_rad = self._body.state.heading_rad
         for end in strip.ends:
             turns = abs(wrap_angle(heading_rad - end.course_rad)) > math.pi / 2.0
             if turns and command.side is not None:
                 continue
-            try:
-                exits = exits_named(self._site, end, command.exit, command.side)
-            except Unable:
-                continue
             here_m = along_m(end.threshold, end.course_rad, self._here)
-            for way in exits:
-                ahead_m = way.along_m - here_m
-                if ahead_m > 0.0:
-                    ways.append((ahead_m + (TURN_COST_M if turns else 0.0), list(way.path)))
-        if not ways:
-            require = command.exit or "that side"
-            raise Unable(f"unable, no way off the runway at {require}")
-        _, path = min(ways, key=lambda way: way[0])
-        return self.plan_way(path, [strip.name])
+            round_m = TURN_COST_M if turns else 0.0
+            before: list[Place] = []
+            if turns:
+                other = next(each for each in strip.ends if each is not end)
+                before = RunwayTurns(other).back_from(
+                    along_m(other.start, other.course_rad, self._here)
+                )
+            with contextlib.suppress(Unable):
+                for way in exits_named(self._site, end, command.exit, command.side):
+                    ahead_m = way.along_m - here_m
+                    if ahead_m > round_m / 2.0:
+                        yield ahead_m + round_m, [*before, *way.path]
+
+    def _exits_here(
+        self, strip: RunwayStrip, command: VacateCommand
+    ) -> Iterator[tuple[float, list[Place]]]:
+        """Yield the lengths of ways off a runway by the taxiways next to the body, and these."""
+        airport, heading_rad = self._site.airport, self._body.state.heading_rad
+        for hold in airport.holds.values():
+            if hold.runway != strip.name:
+                continue
+            if command.exit not in (None, hold.taxiway, hold.position):
+                continue
+            bearing_rad = wrap_angle(azimuth(self._here, hold.place) - heading_rad)
+            if command.side is not None and (bearing_rad > 0.0) != (command.side == "right"):
+                continue
+            with contextlib.suppress(ScenarioError):
+                places, line_m = airport.way_off(self._here, hold, heading_rad)
+                way = self._errand_on([self._here, *places])
+                if way.stays_on(strip.name, line_m):
+                    turns = abs(bearing_rad) > math.pi / 2.0
+                    yield line_m + (TURN_COST_M if turns else 0.0), self._cut(places, line_m)
 
     # --- other traffic ------------------------------------------------------------------------
 
@@ -463,11 +500,8 @@ class GroundOperations:
 
     def is_on(self, strip: str) -> bool:
         """Return whether the body is within the protected area of a runway, by its whole name."""
-        from shapely import Point
-
         airport = self._site.airport
-        at = Point(airport.local_frame.to_local(self._here))
-        return bool(airport.strips[strip].protected_area.contains(at))
+        return airport.strips[strip].protects(airport.local_frame.to_local(self._here))
 
     @property
     def _here(self) -> Place:
@@ -478,9 +512,9 @@ class GroundOperations:
     def _nose_m(self) -> float:
         return self._body.length_m / 2.0
 
-    def _require_free(self, *, or_rolling: bool = False) -> None:
+    def _require_free(self) -> None:
         """Raise `Unable` if the body cannot follow a path now."""
-        if self._body.busy and not (or_rolling and self._body.is_rolling_out):
+        if self._body.busy:
             raise Unable(self._body.busy)
 
     def _errand_on(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from airhilt.commands import Side, TaxiCommand
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.wgs84 import Place, distance_m
+from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, distance_m
+from airhilt.units import wrap_angle
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.taxi_clearances import require_taxiway
+from airhilt.world.actors.taxi_clearances import require_taxiway, strip_name
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
 from airhilt.world.surface.ways import taxi_way
@@ -18,6 +20,9 @@ if TYPE_CHECKING:
 
 HOLD_REACH_M = 150.0
 """Greatest distance from a hold-short position at which an aircraft lines up from it, in m."""
+ASIDE_M = 30.0
+"""Greatest distance from the line of a taxiway at which an actor stands on it, in m; assumed: that
+of a bend just before the hold line."""
 TOUCHDOWN_M = 450.0
 """Distance past the threshold at which a normal landing has touched down, in m."""
 BRAKING_M_S2 = 2.0
@@ -40,18 +45,35 @@ def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: flo
         raise Unable(str(error)) from None
 
 
-def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:
-    """Return the hold-short position of a runway at which an actor stands, or raise `Unable`."""
+def hold_beside(
+    site: ScenarioSite, here: Place, runway: str, heading_rad: float | None = None
+) -> Hold:
+    """Return the hold-short position of a runway at which an actor stands, or raise `Unable`.
+
+    That is one on the taxiway behind whose line it stands, or the nearest one if it stands beyond
+    the line already; with a heading, one that it points to.
+    """
     airport = site.airport
-    try:
-        strip = airport.strip_of(runway)
-    except ScenarioError as error:
-        raise Unable(str(error)) from None
-    holds = [hold for hold in airport.holds.values() if hold.runway == strip.name]
-    nearest = min(holds, key=lambda hold: distance_m(here, hold.place), default=None)
-    if nearest is None or distance_m(here, nearest.place) > HOLD_REACH_M:
+    strip = airport.strips[strip_name(airport, runway)]
+    is_inside = strip.protects(airport.local_frame.to_local(here))
+    holds = [
+        hold
+        for hold in airport.holds.values()
+        if hold.runway == strip.name
+        and distance_m(here, hold.place) <= HOLD_REACH_M
+        and (is_inside or _is_beside(hold, here, heading_rad))
+    ]
+    if not holds:
         raise Unable(f"unable, not at a hold-short position of runway {runway}")
-    return nearest
+    return min(holds, key=lambda hold: distance_m(here, hold.place))
+
+
+def _is_beside(hold: Hold, here: Place, heading_rad: float | None) -> bool:
+    """Return whether an actor stands on the taxiway of a hold, and points to the runway."""
+    away_m, bearing_rad = distance_and_azimuth(here, hold.place)
+    aside_m = abs(away_m * math.sin(bearing_rad - hold.heading_rad))
+    turn_rad = 0.0 if heading_rad is None else abs(wrap_angle(hold.heading_rad - heading_rad))
+    return aside_m <= ASIDE_M and turn_rad <= math.pi / 2.0
 
 
 def exits_named(

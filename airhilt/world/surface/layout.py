@@ -270,6 +270,23 @@ class Layout:
         line_m = LineString(curve).project(Point(self.taxiways.nodes[across[-1]]))
         return self._places(lines.dense(curve, POINT_STEP_M)), float(line_m)
 
+    def way_off(self, here: Place, hold: Hold, heading_rad: float) -> tuple[list[Place], float]:
+        """Return the way from a runway over a hold line, and on beyond it.
+
+        The second number is the distance along the way, in m, at which that line is. What begins it
+        points in a true heading.
+
+        Raises
+        ------
+        ScenarioError
+            No taxiway leads there.
+        """
+        way = self.taxi_route(here, hold.name, (), heading_rad)
+        inside = self.taxiways.to_centreline(hold.name, hold.runway)[1]
+        beyond = self.taxiways.away(inside, hold.name, self.stands)[1:]
+        length_m = lines.length([self.local_frame.to_local(place) for place in way])
+        return [*way, *(self.node(name) for name in beyond)], length_m
+
     @cached_property
     def stands(self) -> tuple[str, ...]:
         """Names of the nodes where aircraft and vehicles stand."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from shapely import LineString, Polygon
+from shapely import LineString, Point, Polygon
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import distance_and_azimuth, onward
@@ -36,6 +36,10 @@ class RunwayStrip:
     """Distance of the holding positions from the centre line: FAA AC 150/5300-13B, runway design
     standards matrix (appendix G), 250 ft for approach categories C and D; ICAO Annex 14 volume I,
     table 3-2, 90 m for code number 4 with precision approaches."""
+
+    def protects(self, point: lines.Local) -> bool:
+        """Return whether a point, in local metres, lies in the protected area."""
+        return bool(self.protected_area.contains(Point(point)))
 
 
 def runway_strip(runway: Runway, local_frame: LocalFrame) -> RunwayStrip:
