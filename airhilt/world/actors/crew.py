@@ -144,9 +144,6 @@ class Crew:
 
     def refusal(self, command: Command) -> str | None:
         """Return why the crew cannot carry out a command now; None if it can."""
-        why = self._envelope.unflyable(command)
-        if why is not None:
-            return f"unable {why}"
         try:
             self._plan(command)
         except Unable as unable:
@@ -174,9 +171,6 @@ class Crew:
             raise Unable(f"unable, {error}") from None
 
     def _carry_out(self, command: Command) -> None:
-        why = self.refusal(command)
-        if why is not None:
-            raise Unable(why)
         try:
             act = self._plan(command)
             if act is not None:
@@ -191,6 +185,9 @@ class Crew:
 
         `Unable`, ValueError or ScenarioError says why it cannot be carried out.
         """
+        why = self._envelope.unflyable(command)
+        if why is not None:
+            raise Unable(f"unable {why}")
         if isinstance(command, BehindCommand):
             self._plan(command.command)
             return self._behind.plan(command)

@@ -11,6 +11,7 @@ from airhilt.commands import (
     BacktrackCommand,
     CancelTakeoffCommand,
     Command,
+    EnterCommand,
     HoldPositionCommand,
     LineUpCommand,
     TakeOffCommand,
@@ -69,6 +70,9 @@ class Departure:
                 return self._plan_cancel()
             case BacktrackCommand(runway=runway):
                 return self._plan_backtrack(runway)
+            case EnterCommand(runway=runway):
+                self._require_on_ground()
+                raise Unable(f"say again, line up or cross runway {runway}")
         return None
 
     def forget(self) -> None:

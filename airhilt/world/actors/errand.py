@@ -19,8 +19,6 @@ STANDS_AT_M = 2.0
 """Distance to a place, in m, within which one that stands need not move to it."""
 ARRIVED_M = 3.0
 """Distance to the end of a way, in m, within which it has been reached."""
-OVER_LINE_M = 1.0
-"""Distance of the nose over a hold line, in m, from which it has been passed."""
 ON_FROM_M = 2.0
 """Distance from its beginning or end, in m, within which a way is on a runway from there."""
 AT_LINE_M = 5.0
@@ -242,8 +240,8 @@ class Errand:
         return crossing.enter_m - self._nose_m - NOSE_MARGIN_M
 
     def _is_ahead(self, crossing: Crossing) -> bool:
-        """Return whether the nose has not passed the hold line before a runway."""
-        return crossing.enter_m > self.along_m + self._nose_m - OVER_LINE_M
+        """Return whether the middle of the body has not passed the hold line before a runway."""
+        return crossing.enter_m > self.along_m
 
     def _ahead(self) -> list[Crossing]:
         return [each for each in self._route.crossings if self._is_ahead(each)]

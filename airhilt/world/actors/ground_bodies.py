@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from airhilt.geodesy.wgs84 import Place
+from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.ground import STOP_DECELERATION_M_S2
 from airhilt.world.mover import Driven, Motion
 from airhilt.world.surface.vehicle import Vehicle
 
+AT_END_M = 1.0
+"""Distance to the end of its path, in m, within which a vehicle has reached it."""
 LEAST_BRAKING_M_S2 = 1.0
 """Deceleration of a vehicle whose own is unknown, in m/s2; assumed: that of a tug with an aircraft
 in tow."""
@@ -34,6 +36,10 @@ class GroundBody(Protocol):
     @property
     def is_moving(self) -> bool:
         """True while it follows a path, and is not held on it."""
+
+    @property
+    def can_resume(self) -> bool:
+        """True if there is something left of its path."""
 
     @property
     def is_rolling_out(self) -> bool:
@@ -77,6 +83,11 @@ class TaxiingAircraft:
         return self._aircraft.phase in ("taxi", "line_up", "vacate")
 
     @property
+    def can_resume(self) -> bool:
+        """True if there is something left of its path."""
+        return self._aircraft.procedures.is_taxiing
+
+    @property
     def is_rolling_out(self) -> bool:
         """True from the touchdown until it stands, off the runway or on it."""
         return self._aircraft.phase in ("rollout", "vacate")
@@ -114,6 +125,7 @@ class DrivenVehicle:
 
     def __init__(self, body: Driven) -> None:
         self._body = body
+        self._end: Place | None = None
         self.braking_m_s2 = (
             body.kind.braking_m_s2 if isinstance(body, Vehicle) else LEAST_BRAKING_M_S2
         )
@@ -133,9 +145,17 @@ class DrivenVehicle:
         """True while it drives."""
         return self._body.phase == "driving"
 
+    @property
+    def can_resume(self) -> bool:
+        """True if there is something left of its path."""
+        state = self._body.state
+        here = state.latitude_rad, state.longitude_rad
+        return self._end is not None and distance_m(here, self._end) > AT_END_M
+
     def go(self, path: Sequence[Place], speed_m_s: float | None) -> None:
         """Drive along a path from here, and stop at its end."""
         self._body.drive(path, speed_m_s)
+        self._end = path[-1]
 
     def stop(self) -> None:
         """Stop on the path."""

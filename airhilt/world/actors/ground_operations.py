@@ -233,6 +233,8 @@ class GroundOperations:
         self._require_free()
         errand = self._errand
         if errand is None or errand.is_done:
+            if not self._body.can_resume:
+                raise Unable("unable, no further clearance")
             return self._body.resume
         if errand.waits_for_clearance:
             raise Unable(f"unable, holding short of runway {errand.next_runway}")

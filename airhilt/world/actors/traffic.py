@@ -87,7 +87,9 @@ class Traffic:
 
     def _fits(self, actor: Actor, words: str) -> bool:
         told = [word for word in _words(words) if word not in EMPTY]
-        return bool(told) and all(self._is(actor, word) for word in told)
+        if not told:
+            return actor.category == "aircraft"
+        return all(self._is(actor, word) for word in told)
 
     def _is(self, actor: Actor, word: str) -> bool:
         """Return whether a word is true of an actor."""

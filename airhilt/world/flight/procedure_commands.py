@@ -56,6 +56,11 @@ class ProcedureCommands:
         called: Way = "line_up" if then == "lined_up" else "taxi"
         control.phase = Taxi(control.systems, track, called, then)
 
+    @property
+    def is_taxiing(self) -> bool:
+        """True while there is something left of the path of a taxi, on the way or held."""
+        return isinstance(self._control.phase, Taxi)
+
     def hold_position(self) -> None:
         """Stop on the way, and stay until `resume_taxi`; where it stands already, it stays."""
         phase = self._control.phase

@@ -146,7 +146,7 @@ def test_what_waits_is_done_once_as_soon_as_it_is_true() -> None:
 
 
 def test_a_driver_who_has_no_way_to_go_on_with_says_so(driver: Driver) -> None:
-    with pytest.raises(Unable, match="no path to go on with"):
+    with pytest.raises(Unable, match="no further clearance"):
         tell(driver, "continue")
 
 

@@ -44,6 +44,7 @@ class Plane:
     refuses: str = ""
     kind = B737
     ended = None
+    is_taxiing = True
 
     @property
     def en_route(self) -> Plane:

@@ -1,0 +1,244 @@
+"""What is done on the ground when told, at every airport that ships and at imported ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from pydantic import TypeAdapter
+
+from airhilt.commands import Command
+from airhilt.geodesy.positions import GeodeticPosition
+from airhilt.geodesy.wgs84 import Place, azimuth, distance_m, onward
+from airhilt.units import DEGREE
+from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.ground_operations import GroundOperations
+from airhilt.world.actors.traffic import Traffic
+from airhilt.world.mover import SurfaceState
+from airhilt.world.site import ScenarioSite
+from airhilt.world.surface.airport import Airport, load_airport
+from airhilt.world.surface.importer import import_airport
+from airhilt.world.surface.layout import Hold, Layout
+from breadth import examples
+
+COMMAND = TypeAdapter(Command)
+TABLES = Path(__file__).parent.parent / "surface" / "ourairports"
+SHIPPED = ("KDCA", "EHAM", "KSFO", "LSZH", "RJTT")
+IMPORTED = ("KPAO", "LSZH")
+STEP_M = 5.0
+"""Distance between two looks at a walker, in m."""
+
+
+@cache
+def site(name: str, *, is_imported: bool = False) -> ScenarioSite:
+    airport: Airport = (
+        import_airport(
+            name, TABLES / "runways.csv", TABLES / "airport-frequencies.csv", year=2025.0
+        )
+        if is_imported
+        else load_airport(name)
+    )
+    layout = Layout(airport)
+    latitude, longitude = layout.local_frame.to_place(0.0, 0.0)
+    centre = GeodeticPosition(
+        type="geodetic", lat_deg=latitude / DEGREE, lon_deg=longitude / DEGREE
+    )
+    return ScenarioSite(centre, layout.elevation_m, layout)
+
+
+SITES = [site(name) for name in SHIPPED] + [site(name, is_imported=True) for name in IMPORTED]
+sites = st.sampled_from(SITES)
+
+
+class Walker:
+    """A body that goes exactly along its path, as far as a test lets it."""
+
+    braking_m_s2 = 1.5
+    is_rolling_out = False
+    busy = ""
+
+    def __init__(self, place: Place, heading_rad: float, length_m: float) -> None:
+        self.place, self.heading_rad, self.length_m = place, heading_rad, length_m
+        self.path: list[Place] = []
+        self.held = False
+
+    @property
+    def state(self) -> SurfaceState:
+        return SurfaceState(*self.place, 0.0, 0.0, 0.0, 0.0, 0.0, self.heading_rad)
+
+    @property
+    def is_moving(self) -> bool:
+        return bool(self.path) and not self.held
+
+    @property
+    def can_resume(self) -> bool:
+        return bool(self.path)
+
+    def go(self, path: Sequence[Place], speed_m_s: float | None) -> None:
+        self.path, self.held = list(path), False
+
+    def stop(self) -> None:
+        self.held = True
+
+    def resume(self) -> None:
+        self.held = False
+
+    def step(self) -> None:
+        """Go on by a few metres."""
+        while self.is_moving:
+            away_m = distance_m(self.place, self.path[0])
+            if away_m < 0.01:
+                self.path.pop(0)
+                continue
+            self.heading_rad = azimuth(self.place, self.path[0])
+            part = min(STEP_M / away_m, 1.0)
+            north, east = (b - a for a, b in zip(self.place, self.path[0], strict=True))
+            self.place = self.place[0] + part * north, self.place[1] + part * east
+            return
+
+
+class Ground:
+    """A walker on an airport, with what it is told and where it has been."""
+
+    def __init__(
+        self, at: ScenarioSite, place: Place, heading_rad: float = 0.0, length_m: float = 6.0
+    ) -> None:
+        self.airport = at.airport
+        self.walker = Walker(place, heading_rad, length_m)
+        self.operations = GroundOperations(self.walker, at, Traffic("OPS1", {}))
+
+    def tell(self, action: str, **arguments: Any) -> None:
+        act = self.operations.plan(COMMAND.validate_python({"action": action, **arguments}))
+        assert act is not None
+        act()
+
+    def walk(self) -> Iterator[set[str]]:
+        """Go on until it stands; yield the runways in whose protected area it is on the way."""
+        for _ in range(10_000):
+            self.operations.attend()
+            if not self.walker.is_moving:
+                return
+            self.walker.step()
+            yield self.on_runways()
+        raise AssertionError("it never comes to a stand")
+
+    def go(self) -> set[str]:
+        """Go on until it stands; return the runways that it has been on."""
+        return set().union(*self.walk())
+
+    def on_runways(self) -> set[str]:
+        """Return the runways in whose protected area its nose or its middle is."""
+        frame, walker = self.airport.local_frame, self.walker
+        east, north = frame.to_local(walker.place)
+        half_m = walker.length_m / 2.0
+        nose = (
+            east + half_m * math.sin(walker.heading_rad),
+            north + half_m * math.cos(walker.heading_rad),
+        )
+        strips = self.airport.strips.values()
+        return {one.name for one in strips if one.protects(nose) or one.protects((east, north))}
+
+    def nearest_hold(self) -> Hold:
+        """Return the hold nearest to its nose."""
+        return min(self.airport.holds.values(), key=self.nose_to_m)
+
+    def nose_to_m(self, hold: Hold) -> float:
+        walker = self.walker
+        nose = onward(walker.place, walker.heading_rad, walker.length_m / 2.0)
+        return distance_m(nose, hold.place)
+
+
+def junctions(airport: Layout) -> list[str]:
+    """Return stands and junctions, where actors may begin."""
+    kinds = {node.name: node.kind for node in airport.airport.taxiways.nodes}
+    used = {node for edge in airport.airport.taxiways.edges for node in edge.nodes}
+    return [name for name, kind in kinds.items() if kind in ("stand", "junction") and name in used]
+
+
+# --- to taxi ----------------------------------------------------------------------------------
+
+
+@st.composite
+def taxiing(draw: st.DrawFn) -> tuple[Ground, dict[str, Any]]:
+    """Return somebody at a place of an airport, and a taxi clearance."""
+    at = draw(sites)
+    airport = at.airport
+    start = draw(st.sampled_from(junctions(airport)))
+    heading_rad, length_m = draw(st.floats(0.0, 6.28)), draw(st.sampled_from([6.0, 34.0]))
+    to = draw(
+        st.one_of(
+            st.fixed_dictionaries(
+                {
+                    "runway": st.sampled_from(
+                        [e.ident for s in airport.strips.values() for e in s.ends]
+                    )
+                }
+            ),
+            st.fixed_dictionaries({"place": st.sampled_from(list(airport.stands))}),
+            st.fixed_dictionaries(
+                {"place": st.sampled_from([e.taxiway for e in airport.airport.taxiways.edges])}
+            ),
+        )
+    )
+    return Ground(at, airport.node(start), heading_rad, length_m), to
+
+
+@examples(100)
+@given(taxiing())
+def test_nobody_enters_a_runway_before_it_is_told_to_cross(
+    case: tuple[Ground, dict[str, Any]],
+) -> None:
+    ground, to = case
+    try:
+        ground.tell("taxi_to", **to)
+    except Unable:
+        assume(False)
+    allowed = ground.on_runways()
+    for _ in range(10):
+        for on in ground.walk():
+            assert on <= allowed
+            allowed = on or allowed
+        if ground.operations.has_arrived:
+            return
+        with pytest.raises(Unable, match="unable, holding short of runway"):
+            ground.tell("continue")
+        ground.tell("cross")
+        allowed = {ground.nearest_hold().runway}
+    raise AssertionError("it never arrives")
+
+
+@examples(100)
+@given(taxiing())
+def test_a_taxi_clearance_leads_to_where_it_says(case: tuple[Ground, dict[str, Any]]) -> None:
+    ground, to = case
+    airport = ground.airport
+    try:
+        ground.tell("taxi_to", **to)
+    except Unable:
+        assume(False)
+    while not ground.operations.has_arrived:
+        ground.go()
+        if not ground.operations.has_arrived:
+            ground.tell("cross")
+    if "runway" in to:
+        hold = ground.nearest_hold()
+        assert hold.runway == airport.strip_of(to["runway"]).name
+        assert ground.nose_to_m(hold) < 8.0
+        airport.entry_path(hold, to["runway"])
+    elif to["place"] in airport.stands:
+        assert distance_m(ground.walker.place, airport.node(to["place"])) < 3.0
+    else:
+        nodes = {
+            node
+            for edge in airport.airport.taxiways.edges
+            if edge.taxiway == to["place"]
+            for node in edge.nodes
+        }
+        away_m = min(distance_m(ground.walker.place, airport.node(node)) for node in nodes)
+        assert away_m <= ground.walker.length_m + 4.0
