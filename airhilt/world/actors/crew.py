@@ -191,10 +191,10 @@ class Crew:
         if isinstance(command, BehindCommand):
             self._plan(command.command)
             return self._behind.plan(command)
-        departs = self._departure.plan(command)
-        if departs is not None:
-            return departs
-        act = self.runway_operations.plan_exit(command) or self._ground.plan(command)
+        act = self._departure.plan(command) or self.runway_operations.plan_exit(command)
+        if act is not None:
+            return act
+        act = self._ground.plan(command)
         return None if act is None else partial(self._move_on_ground, act, command)
 
     def _move_on_ground(self, act: Act, command: Command) -> None:

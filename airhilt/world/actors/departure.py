@@ -221,6 +221,7 @@ class Departure:
         if self._aircraft.phase not in ("lined_up", "standing"):
             return False
         self._aircraft.procedures.take_off(self._runways.bind(runway), climb_to_m)
+        self._ground.forget()
         return True
 
     # --- where it is --------------------------------------------------------------------------

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -22,36 +20,32 @@ from airhilt.commands import (
     TaxiToCommand,
     VacateCommand,
 )
-from airhilt.errors import ScenarioError
-from airhilt.geodesy.wgs84 import Place, azimuth, distance_and_azimuth, distance_m
-from airhilt.units import KNOT, wrap_angle
+from airhilt.geodesy.wgs84 import Place, distance_m
+from airhilt.units import KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.errand import Errand
 from airhilt.world.actors.ground_bodies import GroundBody
-from airhilt.world.actors.runway_turns import RunwayTurns
 from airhilt.world.actors.taxi_clearances import (
     hold_of,
     require_taxiway,
     strip_name,
     way_to,
 )
-from airhilt.world.actors.taxi_paths import exits_named, hold_beside, taxi_path
+from airhilt.world.actors.taxi_paths import hold_beside, taxi_path
 from airhilt.world.actors.traffic import Passage, Traffic
+from airhilt.world.actors.ways_off import clear_of_line, way_off
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.ways import NOSE_MARGIN_M
 
 if TYPE_CHECKING:
     from airhilt.world.actors.actor import Actor
     from airhilt.world.surface.layout import Hold
-    from airhilt.world.surface.strips import RunwayStrip
 
 AT_STAND_M = 5.0
 """Distance from a stand within which an aircraft is parked on it, in m."""
 BEHIND_M = 60.0
 """Distance that is kept between the tail of who is followed and the nose, in m; assumed: about two
 lengths of a narrow-body airliner."""
-TURN_COST_M = 300.0
-"""Length of the way to an exit, in m, that is preferred to a turn on the runway; assumed."""
 TRAIL_STEP_M = 15.0
 """Distance between the places of who is followed that are kept, in m."""
 
@@ -259,7 +253,7 @@ class GroundOperations:
                 raise Unable("say again, hold short of what")
         if taxiway is not None:
             require_taxiway(self._site.airport, taxiway)
-        elif runway is not None and self.is_on(strip_name(self._site.airport, runway)):
+        if runway is not None and self.is_on(strip_name(self._site.airport, runway)):
             raise Unable(f"unable, already on runway {runway}")
         if errand is None or self.has_arrived:
             return self._body.stop
@@ -267,7 +261,8 @@ class GroundOperations:
 
         def hold_short() -> None:
             hold()
-            self._move(errand)
+            if self._body.is_moving:
+                self._move(errand)
 
         self._require_room(errand, runway)
         return hold_short
@@ -329,8 +324,8 @@ class GroundOperations:
 
     def _cross(self, errand: Errand, strip: str | None) -> None:
         errand.clear_next(strip)
-        self._gives_way = None
-        self._move(errand)
+        if self._gives_way is None:
+            self._move(errand)
 
     def _plan_cross_from_hold(self, runway: str | None, at: str | None) -> Act:
         """Return what goes from a hold line to beyond the one on the other side."""
@@ -341,7 +336,7 @@ class GroundOperations:
         way = airport.way_across(hold)
         if way is None:
             raise Unable(f"unable, taxiway {hold.taxiway} does not lead across runway {runway}")
-        return self._plan_way_over(hold.runway, self._cut(*way))
+        return self._plan_way_over(hold.runway, clear_of_line(airport, *way, self._nose_m))
 
     def _plan_enter(self, runway: str, at: str | None) -> Act:
         """Return what drives on to a runway, from the hold line here or from another."""
@@ -365,68 +360,19 @@ class GroundOperations:
     def _plan_vacate(self, command: VacateCommand) -> Act:
         """Return what leaves the runway on which the body stands or moves."""
         self._require_free()
-        airport = self._site.airport
-        strip = next((strip for strip in airport.strips.values() if self.is_on(strip.name)), None)
+        strips = self._site.airport.strips.values()
+        strip = next((strip for strip in strips if self.is_on(strip.name)), None)
         if strip is None:
             raise Unable("unable, not on a runway")
         errand = self._errand
-        goes = errand is not None and errand.is_crossing(strip.name) and not errand.is_done
-        if errand is not None and goes and command.exit is None and command.side is None:
+        leaves = errand is not None and errand.is_crossing(strip.name) and not errand.is_done
+        if errand is not None and leaves and command.exit is None and command.side is None:
             return partial(self._go_on, errand)
-        ways = [*self._exits_ahead(strip, command), *self._exits_here(strip, command)]
-        if not ways:
-            where = command.exit or (f"to the {command.side}" if command.side else "here")
-            raise Unable(f"unable, no way off the runway {where}")
-        _, path = min(ways, key=lambda way: way[0])
-        errand = self._errand_on([self._here, *path])
-        errand.clear_from_runway(strip.name)
-        return partial(self._begin, errand)
-
-    def _exits_ahead(
-        self, strip: RunwayStrip, command: VacateCommand
-    ) -> Iterator[tuple[float, list[Place]]]:
-        """Yield the lengths of ways along a runway to exits that lead off it further on, and these.
-
-        Those for which the body has to turn round first are longer by `TURN_COST_M`.
-        """
         heading_rad = self._body.state.heading_rad
-        for end in strip.ends:
-            turns = abs(wrap_angle(heading_rad - end.course_rad)) > math.pi / 2.0
-            if turns and command.side is not None:
-                continue
-            here_m = along_m(end.threshold, end.course_rad, self._here)
-            round_m = TURN_COST_M if turns else 0.0
-            before: list[Place] = []
-            if turns:
-                other = next(each for each in strip.ends if each is not end)
-                before = RunwayTurns(other).back_from(
-                    along_m(other.start, other.course_rad, self._here)
-                )
-            with contextlib.suppress(Unable):
-                for way in exits_named(self._site, end, command.exit, command.side):
-                    ahead_m = way.along_m - here_m
-                    if ahead_m > round_m / 2.0:
-                        yield ahead_m + round_m, [*before, *way.path]
-
-    def _exits_here(
-        self, strip: RunwayStrip, command: VacateCommand
-    ) -> Iterator[tuple[float, list[Place]]]:
-        """Yield the lengths of ways off a runway by the taxiways next to the body, and these."""
-        airport, heading_rad = self._site.airport, self._body.state.heading_rad
-        for hold in airport.holds.values():
-            if hold.runway != strip.name:
-                continue
-            if command.exit not in (None, hold.taxiway, hold.position):
-                continue
-            bearing_rad = wrap_angle(azimuth(self._here, hold.place) - heading_rad)
-            if command.side is not None and (bearing_rad > 0.0) != (command.side == "right"):
-                continue
-            with contextlib.suppress(ScenarioError):
-                places, line_m = airport.way_off(self._here, hold, heading_rad)
-                way = self._errand_on([self._here, *places])
-                if way.stays_on(strip.name, line_m):
-                    turns = abs(bearing_rad) > math.pi / 2.0
-                    yield line_m + (TURN_COST_M if turns else 0.0), self._cut(places, line_m)
+        way = way_off(self._site, strip, self._here, heading_rad, self._nose_m, command)
+        leaving = self._errand_on([self._here, *way])
+        leaving.clear_from_runway(strip.name)
+        return partial(self._begin, leaving)
 
     # --- other traffic ------------------------------------------------------------------------
 
@@ -560,21 +506,6 @@ class GroundOperations:
 
     def _away_m(self, place: Place) -> float:
         return distance_m(self._here, place)
-
-    def _cut(self, places: Sequence[Place], line_m: float) -> list[Place]:
-        """Return a way, cut where the tail is past a hold line on it."""
-        from airhilt.world.surface import path as lines
-
-        frame = self._site.airport.local_frame
-        points = [frame.to_local(place) for place in places]
-        past_m = line_m + self._nose_m + NOSE_MARGIN_M
-        return [frame.to_place(*point) for point in lines.cut(points, past_m)]
-
-
-def along_m(start: Place, course_rad: float, place: Place) -> float:
-    """Return how far a place is from another along a course, in m."""
-    away_m, bearing_rad = distance_and_azimuth(start, place)
-    return away_m * math.cos(bearing_rad - course_rad)
 
 
 def _nothing() -> None:
