@@ -34,6 +34,10 @@ class GroundBody(Protocol):
         """Deceleration with which it stops on its path."""
 
     @property
+    def is_airborne(self) -> bool:
+        """True for an aircraft in the air."""
+
+    @property
     def is_moving(self) -> bool:
         """True while it follows a path, and is not held on it."""
 
@@ -78,6 +82,11 @@ class TaxiingAircraft:
         return self._aircraft.kind.dimensions.length_m
 
     @property
+    def is_airborne(self) -> bool:
+        """True if no main wheel carries weight."""
+        return not self._aircraft.on_ground
+
+    @property
     def is_moving(self) -> bool:
         """True while it taxis."""
         return self._aircraft.phase in ("taxi", "line_up", "vacate")
@@ -120,6 +129,7 @@ class TaxiingAircraft:
 class DrivenVehicle:
     """A vehicle, driven along paths."""
 
+    is_airborne = False
     is_rolling_out = False
     busy = ""
 

@@ -166,6 +166,8 @@ class GroundOperations:
 
     def _plan_scripted(self, command: TaxiCommand) -> Act:
         """Return what goes to a given place, over any runway."""
+        if self._body.is_airborne:
+            raise Unable("unable, airborne")
         path = taxi_path(self._site, self._here, command, self._nose_m)
         speed = None if command.speed_kt is None else command.speed_kt * KNOT
 
@@ -387,7 +389,7 @@ class GroundOperations:
         return give_way
 
     def _plan_follow(self, whom: str) -> Act | None:
-        if self._body.busy == "unable, airborne":
+        if self._body.is_airborne:
             return None
         self._require_free()
         leader = self._traffic.named(whom)

@@ -60,6 +60,7 @@ class Walker:
     """A body that goes exactly along its path, as far as a test lets it."""
 
     braking_m_s2 = 1.5
+    is_airborne = False
     is_rolling_out = False
     busy = ""
 
@@ -113,6 +114,12 @@ class Ground:
         self.walker = Walker(place, heading_rad, length_m)
         self.operations = GroundOperations(self.walker, at, Traffic("OPS1", {}))
 
+    @classmethod
+    def at_hold(cls, at: ScenarioSite, hold: Hold) -> Ground:
+        """Return somebody who stands before a hold line."""
+        here = onward(hold.place, hold.heading_rad, -6.0)
+        return cls(at, here, hold.heading_rad)
+
     def tell(self, action: str, **arguments: Any) -> None:
         act = self.operations.plan(COMMAND.validate_python({"action": action, **arguments}))
         assert act is not None
@@ -143,6 +150,16 @@ class Ground:
         )
         strips = self.airport.strips.values()
         return {one.name for one in strips if one.protects(nose) or one.protects((east, north))}
+
+    def nodes_on(self, taxiway: str) -> set[str]:
+        """Return the nodes of a taxiway."""
+        edges = self.airport.airport.taxiways.edges
+        return {node for edge in edges if edge.taxiway == taxiway for node in edge.nodes}
+
+    def is_right_of(self, strip: str) -> bool:
+        """Return whether it is to the right of a runway, seen along its first direction."""
+        end = self.airport.strips[strip].ends[0]
+        return math.sin(azimuth(end.start, self.walker.place) - end.course_rad) > 0.0
 
     def nearest_hold(self) -> Hold:
         """Return the hold nearest to its nose."""
@@ -234,11 +251,154 @@ def test_a_taxi_clearance_leads_to_where_it_says(case: tuple[Ground, dict[str, A
     elif to["place"] in airport.stands:
         assert distance_m(ground.walker.place, airport.node(to["place"])) < 3.0
     else:
-        nodes = {
-            node
-            for edge in airport.airport.taxiways.edges
-            if edge.taxiway == to["place"]
-            for node in edge.nodes
-        }
+        nodes = ground.nodes_on(to["place"])
         away_m = min(distance_m(ground.walker.place, airport.node(node)) for node in nodes)
         assert away_m <= ground.walker.length_m + 4.0
+
+
+@pytest.mark.parametrize(
+    ("command", "why"),
+    [
+        ({"action": "taxi_to", "place": "gate a3"}, "unable, no gate a3 at KDCA, there is gate a"),
+        ({"action": "taxi_to", "place": "the pub"}, "unable, no the pub at KDCA"),
+        ({"action": "taxi_to", "runway": "36"}, "unable, no runway 36 at KDCA, there is 33"),
+        ({"action": "taxi_to", "runway": "01", "via": ["Q"]}, "unable, no taxiway Q at KDCA"),
+        (
+            {"action": "taxi_to", "runway": "01", "place": "C"},
+            "unable, C does not lead to runway 01",
+        ),
+        ({"action": "taxi_to", "runway": "01", "cross": ["15"]}, "unable, runway 15 is not on our"),
+        ({"action": "hold_short", "taxiway": "Q"}, "unable, no taxiway Q at KDCA"),
+        ({"action": "hold_short"}, "say again, hold short of what"),
+        ({"action": "cross", "runway": "01"}, "unable, not at a hold-short position of runway 01"),
+        ({"action": "enter", "runway": "01"}, "unable, not at a hold-short position of runway 01"),
+        ({"action": "vacate"}, "unable, not on a runway"),
+        ({"action": "continue"}, "unable, no further clearance"),
+        ({"action": "push_back"}, "unable, no tug here"),
+        ({"action": "follow", "whom": "company Embraer"}, "unable, company Embraer not in sight"),
+    ],
+)
+def test_what_cannot_be_done_from_a_stand_is_said(command: dict[str, Any], why: str) -> None:
+    ground = Ground(site("KDCA"), site("KDCA").airport.node("gate_b12"), 1.5)
+    with pytest.raises(Unable, match=why):
+        ground.tell(**command)
+    assert ground.walker.path == []
+
+
+# --- to hold short ----------------------------------------------------------------------------
+
+
+@examples(60)
+@given(st.data(), sites)
+def test_told_to_hold_short_of_a_taxiway_on_its_way_it_stops_before_it(
+    data: st.DataObject, at: ScenarioSite
+) -> None:
+    airport = at.airport
+    ground = Ground(at, airport.node(data.draw(st.sampled_from(airport.stands))))
+    ground.tell("taxi_to", runway=data.draw(st.sampled_from(ends_of(airport))))
+    taxiways = {edge.taxiway for edge in airport.airport.taxiways.edges} - {"ramp"}
+    taxiway = data.draw(st.sampled_from(sorted(taxiways)))
+    try:
+        ground.tell("hold_short", taxiway=taxiway)
+    except Unable as unable:
+        assume("not on our way" not in str(unable) and "past" not in str(unable))
+        raise
+    begun = ground.walker.place
+    ground.go()
+    while ground.nose_to_m(ground.nearest_hold()) < 5.0:
+        ground.tell("cross")
+        ground.go()
+    nodes = ground.nodes_on(taxiway)
+    away_m = min(distance_m(ground.walker.place, airport.node(node)) for node in nodes)
+    assert away_m > 20.0 or distance_m(ground.walker.place, begun) < 1.0
+    ground.tell("continue")
+    assert ground.walker.is_moving
+
+
+def ends_of(airport: Layout) -> list[str]:
+    return [end.ident for strip in airport.strips.values() for end in strip.ends]
+
+
+def test_a_way_that_was_given_over_a_runway_stops_before_it_when_told() -> None:
+    ground = Ground(site("KDCA"), site("KDCA").airport.node("K/E"), 1.5)
+    ground.tell("taxi", to={"type": "node", "node": "01/19 at E"})
+    walk = ground.walk()
+    next(walk)
+    ground.tell("hold_short", runway="19")
+    assert ground.go() == set()
+    assert ground.nearest_hold().name == "01/19 E"
+    ground.tell("cross", runway="01", at="E")
+    assert ground.go() == {"01/19"}
+    with pytest.raises(Unable, match="unable, already on runway 01"):
+        ground.tell("hold_short", runway="01")
+
+
+def test_what_has_been_passed_is_held_short_of_no_more() -> None:
+    ground = Ground(site("KDCA"), site("KDCA").airport.node("gate_b12"), 4.6)
+    ground.tell("taxi_to", runway="01")
+    for taxiway in ("E", "F"):
+        with pytest.raises(Unable, match=f"unable, taxiway {taxiway} is not on our way"):
+            ground.tell("hold_short", taxiway=taxiway)
+    ground.go()
+    ground.tell("cross", runway="04")
+    walk = ground.walk()
+    while "04/22" not in next(walk):
+        pass
+    while "04/22" in next(walk):
+        pass
+    with pytest.raises(Unable, match="unable, past taxiway D"):
+        ground.tell("hold_short", taxiway="D")
+    with pytest.raises(Unable, match="unable, past runway 22"):
+        ground.tell("hold_short", runway="22")
+    ground.tell("hold_short", runway="01")
+
+
+def test_who_holds_its_position_goes_on_only_when_told() -> None:
+    ground = Ground(site("KDCA"), site("KDCA").airport.node("gate_b12"), 4.6)
+    ground.tell("taxi_to", runway="01")
+    next(ground.walk())
+    ground.tell("hold_position")
+    ground.tell("hold_short", taxiway="B")
+    assert ground.go() == set()
+    assert not ground.walker.is_moving
+    ground.tell("continue")
+    assert ground.walker.is_moving
+
+
+# --- over runways -----------------------------------------------------------------------------
+
+
+@examples(60)
+@given(st.data(), sites)
+def test_from_a_hold_it_crosses_to_beyond_the_other_one_or_says_that_no_way_leads_there(
+    data: st.DataObject, at: ScenarioSite
+) -> None:
+    airport = at.airport
+    hold = data.draw(st.sampled_from(list(airport.holds.values())))
+    ground = Ground.at_hold(at, hold)
+    runway = hold.runway.split("/")[0]
+    try:
+        ground.tell("cross", runway=runway)
+    except Unable as unable:
+        assert f"does not lead across runway {runway}" in str(unable)  # noqa: PT017
+        return
+    was_right = ground.is_right_of(hold.runway)
+    assert ground.go() == {hold.runway}
+    assert ground.on_runways() == set()
+    assert ground.is_right_of(hold.runway) != was_right
+
+
+@examples(60)
+@given(st.data(), sites)
+def test_who_enters_a_runway_stays_there_and_leaves_it_when_told(
+    data: st.DataObject, at: ScenarioSite
+) -> None:
+    hold = data.draw(st.sampled_from(list(at.airport.holds.values())))
+    ground = Ground.at_hold(at, hold)
+    ground.tell("enter", runway=hold.runway.split("/")[1])
+    ground.go()
+    assert hold.runway in ground.on_runways()
+    exit_name = data.draw(st.sampled_from([None, hold.taxiway]))
+    ground.tell("vacate", exit=exit_name)
+    assert ground.go() >= {hold.runway}
+    assert hold.runway not in ground.on_runways()

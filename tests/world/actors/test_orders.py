@@ -64,3 +64,48 @@ def test_what_is_missing_is_asked_for() -> None:
 def test_headings_that_are_said_are_magnetic() -> None:
     made = order(Instruction("heading", heading_deg=5.0), variation_deg=-10.7).command
     assert made.track_deg == pytest.approx(354.3)
+
+
+def test_what_is_said_about_the_way_is_part_of_a_taxi_clearance() -> None:
+    said = (
+        Instruction("taxi", "19", via=("K",)),
+        Instruction("cross", "15", position="J"),
+        Instruction("hold_short", hold_short="N"),
+    )
+    taxi, cross, hold_short = orders_of(said, None, 0.0)
+    assert taxi.command is not None
+    assert taxi.command.model_dump() == {
+        "action": "taxi_to", "runway": "19", "place": None, "via": ("K",),
+        "cross": ("15",), "hold_short": ("N",),
+    }  # fmt: skip
+    for part in (cross, hold_short):
+        assert part.command is None
+        assert part.unable == part.question == ""
+
+
+@pytest.mark.parametrize(
+    ("condition", "whom", "traffic"),
+    [
+        ("behind the landing cessna", "landing cessna", "landing"),
+        ("after the departing Delta 737 has passed", "departing Delta 737", "departing"),
+        ("behind traffic on final", "traffic on final", "landing"),
+        ("behind delta 456", "delta 456", "passing"),
+    ],
+)
+def test_behind_other_traffic_is_done_once_that_has_passed(
+    condition: str, whom: str, traffic: str
+) -> None:
+    made = order(Instruction("line_up", "01", condition=condition)).command.model_dump()
+    assert (made["action"], made["whom"], made["traffic"]) == ("behind", whom, traffic)
+    assert made["command"] == {"action": "line_up", "runway": "01"}
+
+
+def test_when_ready_is_now_and_other_conditions_are_asked_about() -> None:
+    assert order(Instruction("cross", "01", condition="when ready")).command.action == "cross"
+    for action, condition in [
+        ("cross", "after departure"),
+        ("line_up", "once the runway is clear"),
+        ("heading", "behind the landing cessna"),
+    ]:
+        asked = order(Instruction(action, "01", heading_deg=90.0, condition=condition))
+        assert asked.question == f"say again, {condition}"

@@ -95,6 +95,9 @@ class Plane:
         self._tell("land", runway.ident, bool(exit_path))
         self.phase = "glide"
 
+    def leave_at(self, path: tuple[Any, ...]) -> None:
+        self._tell("leave_at", path)
+
     def go_around(self, climb_to_m: float) -> None:
         self._tell("go_around", round(climb_to_m / FOOT))
         self.phase = "go_around"
@@ -435,3 +438,164 @@ def test_the_final_approach_is_joined_near_it_and_about_along_it(subtests: pytes
             tell(crew, "land", runway="01")
             assert plane.names == (["land"] if lands else [])
             assert crew.runway_operations.bound_runway == "01"
+
+
+# --- what is refused, in every phase ----------------------------------------------------------
+
+ON_THE_GROUND = ("standing", "taxi", "line_up", "lined_up", "takeoff_roll", "rejected_takeoff",
+                 "rollout", "vacate")  # fmt: skip
+IN_THE_AIR = ("rotate", "climb_out", "en_route", "glide", "flare", "go_around")
+GROUND_COMMANDS: tuple[dict[str, Any], ...] = (
+    {"action": "taxi", "to": {"type": "node", "node": "gate_a2"}},
+    {"action": "taxi_to", "runway": "33"},
+    {"action": "taxi_to", "place": "gate a2"},
+    {"action": "hold_position"},
+    {"action": "continue"},
+    {"action": "hold_short", "runway": "33"},
+    {"action": "hold_short", "taxiway": "E"},
+    {"action": "cross", "runway": "01"},
+    {"action": "cross"},
+    {"action": "enter", "runway": "01"},
+    {"action": "vacate", "exit": "E"},
+    {"action": "backtrack", "runway": "01"},
+    {"action": "give_way", "to": "cessna"},
+    {"action": "push_back"},
+    {"action": "line_up", "runway": "01"},
+    {"action": "line_up", "runway": "33"},
+    {"action": "take_off", "runway": "01"},
+    {"action": "cancel_takeoff"},
+    {"action": "behind", "whom": "landing cessna", "command": {"action": "cross"}},
+)
+
+
+@pytest.mark.parametrize("phase", [*ON_THE_GROUND, *IN_THE_AIR])
+def test_a_command_is_refused_before_anything_changes_or_it_is_carried_out(
+    phase: str, subtests: pytest.Subtests
+) -> None:
+    height_m = 0.0 if phase in ON_THE_GROUND else 100.0
+    for given in GROUND_COMMANDS:
+        with subtests.test(given["action"]):
+            plane = Plane(phase, kdca().airport.hold("01", "A").place, height_m, 20.0)
+            crew, command = crew_of(plane), COMMAND.validate_python(given)
+            why = crew.refusal(command)
+            assert plane.told == []
+            if why is None:
+                crew.command(command)
+                continue
+            assert why.startswith(("unable", "say again"))
+            with pytest.raises(Unable) as refused:
+                crew.command(command)
+            assert str(refused.value) == why
+
+
+@pytest.mark.parametrize("phase", IN_THE_AIR)
+def test_in_the_air_nothing_is_done_that_belongs_on_the_ground(phase: str) -> None:
+    plane = Plane(phase, kdca().airport.hold("01", "A").place, 100.0, 120.0)
+    crew = crew_of(plane)
+    for given in GROUND_COMMANDS:
+        why = crew.refusal(COMMAND.validate_python(given))
+        assert why is not None, given
+        assert "airborne" in why or "rolling" in why or "not in sight" in why, (given, why)
+
+
+def test_a_takeoff_is_stopped_at_once_below_the_decision_speed_and_refused_above_it() -> None:
+    for action in ("cancel_takeoff", "hold_position"):
+        slow, fast = Plane("takeoff_roll", speed_kt=60.0), Plane("takeoff_roll", speed_kt=133.0)
+        tell(crew_of(slow), action)
+        assert slow.names == ["reject_takeoff"]
+        with pytest.raises(Unable, match="unable, above V one"):
+            tell(crew_of(fast), action)
+        assert fast.told == []
+
+
+@pytest.mark.parametrize("action", ["line_up", "take_off"])
+def test_on_a_runway_it_uses_no_other_one(action: str) -> None:
+    plane, crew = at_hold()
+    tell(crew, "line_up", runway="01")
+    for phase in ("line_up", "lined_up"):
+        plane.phase = phase
+        with pytest.raises(Unable, match="unable, lined up on runway 01"):
+            tell(crew, action, runway="19")
+    assert crew.bound_runway == "01"
+
+
+def test_it_does_not_line_up_beyond_a_runway_that_it_may_not_cross() -> None:
+    plane = Plane(place=kdca().airport.node("K/gate_b12"), heading_deg=175.0)
+    with pytest.raises(Unable, match="unable, runway 04 is on our way"):
+        tell(crew_of(plane), "line_up", runway="01")
+    assert plane.told == []
+
+
+def test_it_taxies_to_the_holding_position_and_lines_up_there() -> None:
+    plane = Plane(place=kdca().airport.node("J/B"), heading_deg=185.0)
+    crew = crew_of(plane)
+    tell(crew, "line_up", runway="01")
+    (_, path, then), *more = plane.told
+    assert (then, more) == ("standing", [])
+    plane.phase, plane.place, plane.heading_deg = "standing", path[-1], 85.0
+    for _ in range(3):
+        crew.attend()
+    assert plane.told[-1][2] == "lined_up"
+
+
+# --- the way off the runway -------------------------------------------------------------------
+
+
+def landing(phase: str, at_m: float, speed_kt: float, height_m: float = 0.0) -> tuple[Plane, Crew]:
+    plane = on_final(-at_m, height_m)
+    plane.phase, plane.speed_kt = phase, speed_kt
+    crew = crew_of(plane)
+    crew.runway_operations.bind("01")
+    return plane, crew
+
+
+def test_it_leaves_by_the_exit_that_it_is_told_on_final_and_while_it_rolls() -> None:
+    for phase, at_m, speed_kt, height_m in [
+        ("glide", -4_000.0, 135.0, 200.0),
+        ("rollout", 700.0, 100.0, 0.0),
+    ]:
+        plane, crew = landing(phase, at_m, speed_kt, height_m)
+        tell(crew, "vacate", exit="N")
+        assert plane.told == [("leave_at", exit_path("N"))]
+
+
+def exit_path(name: str) -> tuple[tuple[float, float], ...]:
+    (way,) = (each for each in kdca().airport.exits("01") if each.taxiway == name)
+    return way.path
+
+
+@pytest.mark.parametrize(
+    ("told", "why"),
+    [
+        ({"exit": "D"}, "unable, past D"),
+        ({"exit": "E"}, "unable, too fast for E"),
+        ({"exit": "G"}, "unable, runway 01 has no exit G"),
+        ({"exit": "Q"}, "unable, no taxiway Q at KDCA"),
+    ],
+)
+def test_an_exit_that_it_cannot_make_is_refused(told: dict[str, str], why: str) -> None:
+    plane, crew = landing("rollout", 900.0, 100.0)
+    with pytest.raises(Unable, match=why):
+        tell(crew, "vacate", **told)
+    assert plane.told == []
+
+
+def test_an_exit_told_before_the_final_approach_is_used_after_it() -> None:
+    away = kdca().place(RunwayPosition(type="runway", runway="01", along_m=0.0, offset_m=-8000.0))
+    plane = Plane("en_route", away, 500.0, 200.0, heading_deg=175.0)
+    crew = crew_of(plane)
+    tell(crew, "land", runway="01", vacate=False)
+    tell(crew, "vacate", exit="N")
+    plane.place, plane.heading_deg = on_final(10_000.0).place, 355.0
+    crew.attend()
+    assert plane.told == [("land", "01", True)]
+
+
+def test_a_taxi_clearance_during_the_landing_roll_is_followed_after_the_runway_is_left() -> None:
+    plane, crew = landing("rollout", 900.0, 60.0)
+    tell(crew, "taxi_to", place="gate a2")
+    crew.attend()
+    assert plane.told == []
+    plane.phase, plane.place = "standing", exit_path("N")[-1]
+    crew.attend()
+    assert plane.names == ["taxi"]
