@@ -72,6 +72,8 @@ class AdvisoryDelivery:
         """Latest revision of each advisory that waits for its voice, by id and recipient."""
         self._in_force: dict[str, set[str]] = {}
         """Ids of the alerts of equipment that tell a recipient what to do."""
+        self._not_responded: set[tuple[str, str]] = set()
+        """Advisories of which was told that there is no response, by id and recipient."""
         self._told_people: dict[tuple[str, str], tuple[Advisory, bool]] = {}
         """Latest revision of each advisory in force that a person has got, by id and recipient,
         and true if it is of equipment."""
@@ -130,17 +132,32 @@ class AdvisoryDelivery:
             if advisory.active:
                 self._told_people[name] = (advisory, is_equipment)
             return
-        reaction = actor.hear(advisory)
-        if reaction is not None:
+        reaction = actor.hear(advisory, "ra" if is_equipment else "assistant")
+        if reaction is None:
+            return
+        if not reaction.responds:
+            self._tell_no_response(advisory, reaction, is_equipment)
+        else:
             react = partial(self._react, actor, advisory, reaction, is_equipment)
             self._director.after(reaction.delay_s, react)
+
+    def _tell_no_response(self, advisory: Advisory, reaction: Reaction, is_equipment: bool) -> None:
+        """Tell once that an actor does not respond to an advisory."""
+        name = (advisory.id, advisory.recipient)
+        if name not in self._not_responded and self._counts(advisory, is_equipment):
+            self._not_responded.add(name)
+            self._event("no_response", advisory.recipient, f"{reaction.text} ({advisory.id})")
+
+    def _counts(self, advisory: Advisory, is_equipment: bool) -> bool:
+        """Return whether an advisory counts: equipment that tells what to do has priority."""
+        return is_equipment or not (advisory.active and self._in_force.get(advisory.recipient))
 
     def _react(
         self, actor: Actor, advisory: Advisory, reaction: Reaction, is_equipment: bool
     ) -> None:
         if actor.body.ended is not None or self._seats.has_person(actor.spec.callsign):
             return
-        if advisory.active and not is_equipment and self._in_force.get(advisory.recipient):
+        if not self._counts(advisory, is_equipment):
             return
         try:
             if reaction.act():

@@ -31,11 +31,11 @@ from airhilt.messages import (
     Recommendation,
     Turn,
 )
-from airhilt.scenario.models import AircraftSpec
+from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.envelope import Envelope
-from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
+from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel, Response
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.en_route import EmergencyDescent
@@ -68,12 +68,17 @@ class Crew:
     category: Literal["aircraft"] = "aircraft"
 
     def __init__(
-        self, spec: AircraftSpec, aircraft: Aircraft, site: ScenarioSite, seed: int
+        self,
+        spec: AircraftSpec,
+        aircraft: Aircraft,
+        site: ScenarioSite,
+        seed: int,
+        responses: Channels = RESPONSE_MODELS["icao"].crews,
     ) -> None:
         self.spec = spec
         self.body = aircraft
         self.runway_operations = RunwayOperations(aircraft, site)
-        self._reactions = ReactionModel(spec.callsign, spec.pilot, seed)
+        self._reactions = ReactionModel(spec.callsign, responses, spec.pilot, seed)
         self._site = site
         self._envelope = Envelope(aircraft, site.ground_m)
         self._return_lateral: Callable[[], None] = partial(
@@ -169,28 +174,35 @@ class Crew:
 
     # --- advisories -------------------------------------------------------------------------
 
-    def hear(self, advisory: Advisory) -> Reaction | None:
-        """Return the crew's reaction to an advisory; None if there is none."""
-        reactions, again = self._reactions, advisory.id in self._followed
+    def hear(self, advisory: Advisory, channel: Channel = "assistant") -> Reaction | None:
+        """Return the crew's reaction to an advisory; None if it asks for none."""
+        recommendation = advisory.recommendation
+        response = self._reactions.respond(
+            channel,
+            advisory.id,
+            revision=advisory.revision,
+            is_repeated=advisory.id in self._followed,
+            is_vertical=isinstance(recommendation, Climb),
+        )
         if not advisory.active:
             self._over.add(advisory.id)
-            if not again:
+            if advisory.id not in self._followed:
                 return None
-            delay_s = reactions.delay_s(advisory, again)
-            return Reaction(delay_s, lambda: self._resume(advisory.id), "resumes")
+            return Reaction(response.delay_s, lambda: self._resume(advisory.id), "resumes")
         self._over.discard(advisory.id)
-        recommendation = advisory.recommendation
         if recommendation is None or advisory.severity.rank < FOLLOWED_FROM.rank:
             return None
-        if not reactions.complies(advisory.id):
-            return None
+        if not response.follows:
+            return Reaction.none(recommendation.action)
         return Reaction(
-            reactions.delay_s(advisory, again),
-            lambda: self._follow(advisory, recommendation),
-            f"follows {recommendation.action}",
+            response.delay_s,
+            lambda: self._follow(advisory, recommendation, response),
+            f"follows {recommendation.action}{response.manner}",
         )
 
-    def _follow(self, advisory: Advisory, recommendation: Recommendation) -> bool:
+    def _follow(
+        self, advisory: Advisory, recommendation: Recommendation, response: Response
+    ) -> bool:
         if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
             return False
         try:
@@ -201,12 +213,22 @@ class Crew:
                     return self.runway_operations.cancel_takeoff()
                 case HoldPosition():
                     return self.runway_operations.hold_position()
-                case Climb() | MaintainLevel() | Turn():
+                case Climb():
+                    return self._avoid(advisory, self._flown(recommendation, response))
+                case MaintainLevel() | Turn():
                     return self._avoid(advisory, recommendation)
                 case Confirm():
                     return False
         except ValueError as error:
             raise Unable(f"unable, {error}") from None
+
+    def _flown(self, told: Climb, response: Response) -> Climb:
+        """Return what the crew flies of a climb or descent; the wrong way ends above the ground."""
+        flown = response.flown(told, self.body.state.altitude_m / FOOT)
+        if response.is_opposite:
+            lowest_ft = max(flown.altitude_ft, self._envelope.lowest_ft)
+            return flown.model_copy(update={"altitude_ft": lowest_ft})
+        return flown
 
     def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
         if self._must_descend_below(recommendation):

@@ -114,7 +114,7 @@ class _Builder:
             terrain_elevation_m=site.ground_m,
             tick_s=self.tick_s,
         )
-        crew = Crew(actor, aircraft, site, self.seed)
+        crew = Crew(actor, aircraft, site, self.seed, self.scenario.response_model.crews)
         match actor.initial:
             case OnFinal(runway=runway):
                 crew.runway_operations.begin_on_final(runway)
@@ -132,7 +132,8 @@ class _Builder:
         body = kind.create(
             place, heading, ground_m=self.site.ground_m, tick_s=self.tick_s, seed=self.seed
         )
-        reactions = ReactionModel(actor.callsign, actor.driver, self.seed)
+        responses = self.scenario.response_model.drivers
+        reactions = ReactionModel(actor.callsign, responses, actor.driver, self.seed)
         driver = Driver(kind, body, self.site, actor, reactions)
         for command in actor.commands:
             driver.command(command)

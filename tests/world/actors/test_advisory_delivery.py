@@ -36,7 +36,7 @@ class Crew:
         self.heard: list[tuple[int, bool]] = []
         self.unable = unable
 
-    def hear(self, advisory: Advisory) -> Reaction:
+    def hear(self, advisory: Advisory, channel: str) -> Reaction:
         self.heard.append((advisory.revision, advisory.active))
         return Reaction(2.0, self.act, "follows turn")
 

@@ -164,12 +164,12 @@ def test_reaction_times_lie_about_their_median(aircraft: Aircraft) -> None:
 @examples(30)
 @given(st.integers(0, 2**40))
 def test_compliance_0_never_follows_and_1_always_does(aircraft: Aircraft, seed: int) -> None:
-    assert crew_of(aircraft, compliance=0.0, seed=seed).hear(advisory()) is None
-    assert crew_of(aircraft, compliance=1.0, seed=seed).hear(advisory()) is not None
+    assert not crew_of(aircraft, compliance=0.0, seed=seed).hear(advisory()).responds
+    assert crew_of(aircraft, compliance=1.0, seed=seed).hear(advisory()).responds
 
 
 def test_compliance_is_how_many_crews_follow(aircraft: Aircraft) -> None:
-    follow = [crew_of(aircraft, 0.3, seed=seed).hear(advisory()) is not None for seed in range(400)]
+    follow = [crew_of(aircraft, 0.3, seed=seed).hear(advisory()).responds for seed in range(400)]
     assert 0.22 <= statistics.mean(follow) <= 0.38
 
 
@@ -179,7 +179,7 @@ def test_whether_a_crew_follows_does_not_change_with_the_revision(
     aircraft: Aircraft, seed: int
 ) -> None:
     crew = crew_of(aircraft, compliance=0.5, seed=seed)
-    heard = [crew.hear(advisory(revision=revision)) is not None for revision in range(4)]
+    heard = [crew.hear(advisory(revision=revision)).responds for revision in range(4)]
     assert len(set(heard)) == 1
 
 
