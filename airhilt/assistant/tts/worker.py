@@ -33,6 +33,9 @@ class TtsWorker:
     ----------
     speak_min_level
         Least severity that is spoken.
+    says_callsign
+        True if a recipient's own callsign is said first, as on a frequency; a loudspeaker in a
+        cockpit speaks to one crew alone.
     """
 
     def __init__(
@@ -41,6 +44,8 @@ class TtsWorker:
         speak_min_level: Severity = SPEAK_MIN_LEVEL,
         style: Style = "faa",
         name: str = "tts",
+        *,
+        says_callsign: bool = True,
     ) -> None:
         self.description = WorkerDescription(
             name=name,
@@ -52,6 +57,7 @@ class TtsWorker:
         self._voice = engine.voice_of(ASSISTANT)
         self._speak_min_level = speak_min_level
         self._style = style
+        self._says_callsign = says_callsign
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Speak the advisories that are active and urgent enough."""
@@ -61,7 +67,9 @@ class TtsWorker:
         return Step(tuple(map(self._speak, urgent)))
 
     def _speak(self, advisory: Advisory) -> Output:
-        text = read_aloud(advisory.message, advisory.recipient, self._style)
+        text = read_aloud(
+            advisory.message, advisory.recipient, self._style, says_callsign=self._says_callsign
+        )
         pcm = to_pcm(self._engine.synthesise(text, self._voice))
         header = AdvisoryAudio(
             id=advisory.id,

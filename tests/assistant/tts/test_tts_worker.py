@@ -77,6 +77,13 @@ def test_callsigns_runways_and_units_are_spoken_as_on_the_radio() -> None:
     )
 
 
+def test_a_cockpit_is_not_told_its_own_callsign() -> None:
+    message = "AAL123 go around. OPS1 is on runway 01"
+    (output,) = spoken(TtsWorker(Tone(), says_callsign=False), advisory(message=message))
+    told = AdvisoryAudio.model_validate(output.attachment).text
+    assert told == "go around. Ops one is on runway one"
+
+
 class Broken(Tone):
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
         raise SpeechError("voice broken: no breath")
