@@ -7,9 +7,9 @@ every `Channel`. A number without a source is called assumed.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from airhilt.quantities import Number, Share
 from airhilt.scenario.models.base import Model
@@ -80,6 +80,16 @@ class ResponseModel(Model):
     drivers: Channels
     controllers: Channels
 
+
+def _is_named(given: object) -> Literal["name", "model"]:
+    return "name" if isinstance(given, str) else "model"
+
+
+NamedOrOwnModel = Annotated[
+    Annotated[ResponseModelName, Tag("name")] | Annotated[ResponseModel, Tag("model")],
+    Discriminator(_is_named),
+]
+"""Name of a response model, or a model of one's own."""
 
 PROMPT_S = 1.0
 """Delay of people who respond at once, in s: assumed, a simple reaction with a movement."""

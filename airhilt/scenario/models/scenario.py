@@ -14,8 +14,8 @@ from airhilt.scenario.models.failures import Failure
 from airhilt.scenario.models.radio import Radio
 from airhilt.scenario.models.responses import (
     RESPONSE_MODELS,
+    NamedOrOwnModel,
     ResponseModel,
-    ResponseModelName,
 )
 from airhilt.scenario.models.scene import Daylight, Scene, Weather
 from airhilt.scenario.models.sensors import Adsb, Camera, Radar, SurfaceSurveillance
@@ -100,7 +100,7 @@ class Scenario(Model):
     scene: Scene
     duration_s: Number = Field(gt=0.0, le=LONGEST_RUN_S, description="latest end of the run")
     actors: tuple[ActorSpec, ...] = Field(min_length=1, max_length=500)
-    crews: ResponseModelName | ResponseModel = Field(
+    crews: NamedOrOwnModel = Field(
         default="icao",
         description="response model of crews, drivers and controllers: its name, or a model of "
         "your own",

@@ -18,7 +18,7 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.positions import GeodeticPosition
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
-from airhilt.scenario.models import AircraftSpec, Reactions
+from airhilt.scenario.models import AircraftSpec, Channels, Reactions, Responses
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
@@ -334,6 +334,20 @@ def test_a_crew_is_unable_to_descend_to_the_ground_for_an_advisory(
 def test_a_crew_climbs_as_high_as_it_can_for_an_advisory(aircraft: Aircraft) -> None:
     crew_of(aircraft).hear(advisory(CLIMB.model_copy(update={"altitude_ft": 90_000}))).act()
     assert level_ft(aircraft) == pytest.approx(13_000)
+
+
+def test_who_descends_in_place_of_climbing_stays_above_the_ground(aircraft: Aircraft) -> None:
+    wrong = Channels(assistant=Responses(median_s=1.0, opposite=1.0))
+    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL123", pilot=Reactions())
+    centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
+    for ground_ft, level in ((0.0, 4_400.0), (4_200.0, 4_700.0)):
+        aircraft.en_route.hold_altitude(5_000 * FOOT)
+        crew = Crew(spec, aircraft, ScenarioSite(centre, ground_ft * FOOT), 1, wrong)
+        told = CLIMB.model_copy(update={"altitude_ft": 5_600})
+        reaction = crew.hear(advisory(told))
+        assert reaction.text == "follows altitude, in the opposite sense"
+        reaction.act()
+        assert level_ft(aircraft) == pytest.approx(level, abs=100.0)
 
 
 def test_the_ground_below_counts(aircraft: Aircraft) -> None:
