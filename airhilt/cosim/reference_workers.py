@@ -62,15 +62,8 @@ def reference_workers(
         )
     if options.speech and "tts" not in taken and is_assisted:
         level = speak_min_level(worker.description for worker in deciding)
-        workers.append(
-            reference_worker(
-                "tts",
-                options.tts,
-                style=radio.phraseology,
-                speak_min_level=level,
-                says_callsign=options.advisory_channel == "frequency",
-            )
-        )
+        settings = {"style": radio.phraseology, "speak_min_level": level}
+        workers.append(reference_worker("tts", options.tts, **settings))
     has_pictures = options.cameras and bool(scenario.cameras) and "vision" in given
     if has_pictures and options.detector != NONE and "vision" not in taken and is_assisted:
         workers.append(vision_worker(options.detector, shares_detections=options.share_pictures))
