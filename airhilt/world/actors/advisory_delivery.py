@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from typing import NamedTuple
 
 from airhilt.messages import (
     SPEAK_MIN_LEVEL,
@@ -20,8 +21,9 @@ from airhilt.messages import (
 from airhilt.phraseology.instruction_end import instruction_end
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.seats import Seats
-from airhilt.sim import Director
+from airhilt.sim import Director, Priority
 from airhilt.sim.payload import Payload
+from airhilt.units import seconds_to_ns
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 
 
@@ -38,6 +40,13 @@ def by_address(actors: Mapping[str, Actor]) -> dict[str, Actor]:
     return {**addresses, **actors}
 
 
+class _Pending(NamedTuple):
+    """A reaction that is not done yet."""
+
+    due_ns: int
+    reaction: Reaction
+
+
 class AdvisoryDelivery:
     """Delivers advisories to actors, and schedules the reactions.
 
@@ -48,7 +57,9 @@ class AdvisoryDelivery:
     (ICAO Annex 10, volume IV, 4.4.2.6).
 
     What is heard is heard: an advisory that is revised while it is spoken is still delivered when
-    its own instruction has been said, unless its end or a later revision came first.
+    its own instruction has been said, unless its end or a later revision came first. What is
+    superseded before it was done is not done: the reaction to a later revision takes its place, and
+    comes no sooner than the one to the first.
 
     While equipment tells a crew what to do, the crew does that, whatever the assistant says: a
     resolution advisory has priority (ICAO Doc 8168, volume III, section 4, 3.2). People at seats
@@ -79,6 +90,9 @@ class AdvisoryDelivery:
         """Those whose voice has begun."""
         self._in_force: dict[str, set[str]] = {}
         """Ids of the alerts of equipment that tell a recipient what to do."""
+        self._pending: dict[tuple[str, str], _Pending] = {}
+        """Reaction that is not done yet to the latest revision of each advisory that was got, by id
+        and recipient."""
         self._not_responded: set[tuple[str, str]] = set()
         """Advisories of which was told that there is no response, by id and recipient."""
         self._told_people: dict[tuple[str, str], tuple[Advisory, bool]] = {}
@@ -172,14 +186,20 @@ class AdvisoryDelivery:
             if advisory.active:
                 self._told_people[name] = (advisory, is_equipment)
             return
+        name = (advisory.id, advisory.recipient)
+        earlier = self._pending.pop(name, None)
         reaction = actor.hear(advisory, "ra" if is_equipment else "assistant")
         if reaction is None:
             return
         if not reaction.responds:
             self._tell_no_response(advisory, reaction, is_equipment)
-        else:
-            react = partial(self._react, actor, advisory, reaction, is_equipment)
-            self._director.after(reaction.delay_s, react)
+            return
+        due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
+        if earlier is not None and advisory.active:
+            due_ns = max(due_ns, earlier.due_ns)
+        self._pending[name] = _Pending(due_ns, reaction)
+        react = partial(self._react, actor, advisory, reaction, is_equipment)
+        self._director.at(due_ns, react, Priority.SCRIPT)
 
     def _tell_no_response(self, advisory: Advisory, reaction: Reaction, is_equipment: bool) -> None:
         """Tell once that an actor does not respond to an advisory."""
@@ -195,6 +215,11 @@ class AdvisoryDelivery:
     def _react(
         self, actor: Actor, advisory: Advisory, reaction: Reaction, is_equipment: bool
     ) -> None:
+        name = (advisory.id, advisory.recipient)
+        pending = self._pending.get(name)
+        if pending is None or pending.reaction is not reaction:
+            return  # It was superseded before it was done.
+        del self._pending[name]
         if actor.body.ended is not None or self._seats.has_person(actor.spec.callsign):
             return
         if not self._counts(advisory, is_equipment):

@@ -86,6 +86,8 @@ class Crew:
         )
         self._altitude_before_m = aircraft.target_altitude_m
         self._followed: dict[str, int] = {}
+        self._responding: set[str] = set()
+        """Ids of the advisories that it follows, or is about to."""
         self._over: set[str] = set()
         self._deferred: list[Command] = []
         self._has_turned = False
@@ -181,11 +183,12 @@ class Crew:
             channel,
             advisory.id,
             revision=advisory.revision,
-            is_repeated=advisory.id in self._followed,
+            is_repeated=advisory.id in self._responding,
             is_vertical=isinstance(recommendation, Climb),
         )
         if not advisory.active:
             self._over.add(advisory.id)
+            self._responding.discard(advisory.id)
             if advisory.id not in self._followed:
                 return None
             return Reaction(response.delay_s, lambda: self._resume(advisory.id), "resumes")
@@ -194,6 +197,7 @@ class Crew:
             return None
         if not response.follows:
             return Reaction.none(recommendation.action)
+        self._responding.add(advisory.id)
         return Reaction(
             response.delay_s,
             lambda: self._follow(advisory, recommendation, response),

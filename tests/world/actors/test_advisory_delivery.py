@@ -151,9 +151,16 @@ def test_what_is_over_is_read_and_its_voice_comes_too_late() -> None:
 
 
 def test_a_revision_that_comes_while_another_is_spoken_is_heard_after_it() -> None:
-    told = Told((10.0, advisory()), (11.0, audio()), (12.0, advisory(revision=1)), (12.5, audio(1)))
+    told = Told((10.0, advisory()), (11.0, audio()), (12.0, advisory(revision=1)), (14.0, audio(1)))
     assert told.crew.heard == [(0, True), (1, True)]
-    assert told.reacted_s == [15.0, 16.5]
+    assert told.reacted_s == [15.0, 18.0]
+
+
+def test_what_is_superseded_before_it_was_done_is_not_done() -> None:
+    messages = [(10.0, advisory()), (11.0, advisory(1)), (11.5, advisory(2))]
+    assert Told(*messages, voiced=False).reacted_s == [13.5]
+    over = (11.9, advisory(3, active=False))
+    assert Told(*messages, over, voiced=False).reacted_s == [13.9]
 
 
 def test_what_is_over_before_its_instruction_has_been_said_is_not_acted_upon() -> None:
