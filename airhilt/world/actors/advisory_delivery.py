@@ -87,7 +87,7 @@ class AdvisoryDelivery:
         self._unheard: dict[tuple[str, str], dict[int, Advisory]] = {}
         """Advisories that wait for the end of their instruction, by id, recipient and revision."""
         self._speaking: set[tuple[str, str, int]] = set()
-        """Those whose voice has begun."""
+        """Advisories whose voice has begun."""
         self._in_force: dict[str, set[str]] = {}
         """Ids of the alerts of equipment that tell a recipient what to do."""
         self._pending: dict[tuple[str, str], _Pending] = {}
