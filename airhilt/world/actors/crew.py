@@ -9,11 +9,15 @@ from typing import Literal
 from airhilt.commands import (
     AltitudeCommand,
     Command,
+    ContinueCommand,
+    CrossCommand,
     DriftDownCommand,
     EmergencyDescentCommand,
+    LineUpCommand,
     ResumeRouteCommand,
     RouteCommand,
     SpeedCommand,
+    TakeOffCommand,
     TrackCommand,
     TurnCommand,
 )
@@ -44,6 +48,8 @@ from airhilt.world.site import ScenarioSite
 GEAR_DOWN_BELOW_M = 600.0
 """Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
 11 km before the threshold."""
+ON_TO_A_RUNWAY = (TakeOffCommand, LineUpCommand, ContinueCommand, CrossCommand)
+"""Commands by which an aircraft goes on to a runway, or takes off from it."""
 EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
     "jet": "A3",
     "heavy_jet": "A5",
@@ -62,7 +68,7 @@ class Crew:
 
     A command that comes while an advisory is followed is deferred until the conflict is over.
     `RunwayOperations` carries out commands about runways and taxiways. Reaction times and
-    compliance are drawn from the seed of the run.
+    compliance are drawn from a seed (`airhilt.world.actors.reactions.response_seed`).
     """
 
     category: Literal["aircraft"] = "aircraft"
@@ -88,6 +94,8 @@ class Crew:
         self._followed: dict[str, int] = {}
         self._responding: set[str] = set()
         """Ids of the advisories that it follows, or is about to."""
+        self._holding: set[str] = set()
+        """Ids of the advisories because of which it keeps off a runway."""
         self._over: set[str] = set()
         self._deferred: list[Command] = []
         self._has_turned = False
@@ -118,7 +126,13 @@ class Crew:
         self._has_route = True
 
     def refusal(self, command: Command) -> str | None:
-        """Return why the crew cannot carry out a command now; None if it can."""
+        """Return why the crew cannot carry out a command now; None if it can.
+
+        A crew that holds because of a warning does not go on to a runway by a clearance that it
+        took before, nor by another one, until the warning is over.
+        """
+        if self._holding and isinstance(command, ON_TO_A_RUNWAY):
+            return "unable, holding because of a warning"
         why = self._envelope.unflyable(command)
         return None if why is None else f"unable {why}"
 
@@ -189,6 +203,7 @@ class Crew:
         if not advisory.active:
             self._over.add(advisory.id)
             self._responding.discard(advisory.id)
+            self._holding.discard(advisory.id)
             if advisory.id not in self._followed:
                 return None
             return Reaction(response.delay_s, lambda: self._resume(advisory.id), "resumes")
@@ -214,9 +229,9 @@ class Crew:
                 case GoAround():
                     return self.runway_operations.go_around()
                 case CancelTakeoff():
-                    return self.runway_operations.cancel_takeoff()
+                    return self._hold(advisory, self.runway_operations.cancel_takeoff())
                 case HoldPosition():
-                    return self.runway_operations.hold_position()
+                    return self._hold(advisory, self.runway_operations.hold_position())
                 case Climb():
                     return self._avoid(advisory, self._flown(recommendation, response))
                 case MaintainLevel() | Turn():
@@ -225,6 +240,12 @@ class Crew:
                     return False
         except ValueError as error:
             raise Unable(f"unable, {error}") from None
+
+    def _hold(self, advisory: Advisory, has_stopped: bool) -> bool:
+        """Note that the crew holds because of an advisory, and return whether it has stopped."""
+        if has_stopped or self.body.phase in ("standing", "lined_up"):
+            self._holding.add(advisory.id)
+        return has_stopped
 
     def _flown(self, told: Climb, response: Response) -> Climb:
         """Return what the crew flies of a climb or descent; the wrong way ends above the ground."""

@@ -26,7 +26,7 @@ from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Actor, Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import ReactionModel
+from airhilt.world.actors.reactions import ReactionModel, response_seed
 from airhilt.world.actors.surface_actors import Animal, Driver
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.aircraft_type import load_aircraft_type
@@ -114,7 +114,8 @@ class _Builder:
             terrain_elevation_m=site.ground_m,
             tick_s=self.tick_s,
         )
-        crew = Crew(actor, aircraft, site, self.seed, self.scenario.response_model.crews)
+        seed = response_seed(self.scenario, self.seed)
+        crew = Crew(actor, aircraft, site, seed, self.scenario.response_model.crews)
         match actor.initial:
             case OnFinal(runway=runway):
                 crew.runway_operations.begin_on_final(runway)
@@ -133,7 +134,8 @@ class _Builder:
             place, heading, ground_m=self.site.ground_m, tick_s=self.tick_s, seed=self.seed
         )
         responses = self.scenario.response_model.drivers
-        reactions = ReactionModel(actor.callsign, responses, actor.driver, self.seed)
+        seed = response_seed(self.scenario, self.seed)
+        reactions = ReactionModel(actor.callsign, responses, actor.driver, seed)
         driver = Driver(kind, body, self.site, actor, reactions)
         for command in actor.commands:
             driver.command(command)

@@ -80,7 +80,7 @@ class Response:
 
 @dataclass(frozen=True, slots=True)
 class ReactionModel:
-    """Draws the responses of one crew, driver or controller from the seed of the run.
+    """Draws the responses of one crew, driver or controller from a seed (`response_seed`).
 
     Attributes
     ----------
@@ -155,9 +155,18 @@ class ReactionModel:
         return "prompt"
 
 
+def response_seed(scenario: Scenario, seed: int) -> int:
+    """Return the seed of the responses in a run: one of its own for each scenario.
+
+    Otherwise a crew that does not respond in one scenario would not in any with the same seed, and
+    the runs of a sweep would be fewer than they seem.
+    """
+    return int(stream(seed, f"responses/{scenario.name}").integers(2**31))
+
+
 def reaction_models(scenario: Scenario, seed: int) -> dict[str, ReactionModel]:
     """Return the reaction models of the crews and drivers of a scenario, by callsign."""
-    model = scenario.response_model
+    model, seed = scenario.response_model, response_seed(scenario, seed)
     found = {}
     for spec in scenario.actors:
         match spec:
@@ -170,4 +179,5 @@ def reaction_models(scenario: Scenario, seed: int) -> dict[str, ReactionModel]:
 
 def controller_reactions(scenario: Scenario, unit: str, seed: int) -> ReactionModel:
     """Return the reaction model of the controller of a unit."""
-    return ReactionModel(unit, scenario.response_model.controllers, Reactions(), seed)
+    responses = scenario.response_model.controllers
+    return ReactionModel(unit, responses, Reactions(), response_seed(scenario, seed))

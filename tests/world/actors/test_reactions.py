@@ -10,16 +10,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from airhilt import load
 from airhilt.messages import Climb
 from airhilt.scenario.models import (
     RESPONSE_MODELS,
     Channel,
     Channels,
     Reactions,
+    ResponseModel,
     ResponseModelName,
     Responses,
 )
-from airhilt.world.actors.reactions import ReactionModel, Response
+from airhilt.world.actors.reactions import ReactionModel, Response, reaction_models
 from breadth import examples
 
 DOWN = Climb(sense="descend", altitude_ft=34_400.0, vertical_rate_fpm=1500.0)
@@ -111,6 +113,23 @@ def test_each_channel_each_advisory_and_each_actor_has_a_draw_of_its_own() -> No
         for name, channel, at in names
     ]
     assert all(one != other for i, one in enumerate(answers) for other in answers[:i])
+
+
+def test_a_seed_does_not_make_the_same_people_fail_in_every_scenario() -> None:
+    half = ResponseModel(
+        crews=(coin := Channels(assistant=Responses(median_s=1.0, no_response=0.5))),
+        drivers=coin,
+        controllers=coin,
+    )
+    answers = {
+        name: [
+            reaction_models(scenario, seed)["AAL123"].respond("assistant", "d-1").follows
+            for seed in range(40)
+        ]
+        for name in ("s02a_headon", "s02a_vertical")
+        for scenario in [load(name).model_copy(update={"crews": half})]
+    }
+    assert answers["s02a_headon"] != answers["s02a_vertical"]
 
 
 def test_who_goes_the_wrong_way_goes_as_far_the_other_way() -> None:
