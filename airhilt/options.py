@@ -35,7 +35,7 @@ from airhilt.engines import RENDERER_HELP, EngineFamily
 from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.host.library import nearest
 from airhilt.messages import Modality, RadarKind
-from airhilt.scenario.models import Topology
+from airhilt.scenario.models import ResponseModelName, Topology
 from airhilt.scenario.models.scene import Visibility
 
 RUN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,79}")
@@ -421,6 +421,17 @@ class Options(BaseModel):
             needs=("assistant",),
         ),
     ] = "cockpit"
+    crews: Annotated[
+        ResponseModelName | None,
+        Flag(
+            "--crews",
+            "How crews, drivers and controllers respond to advisories and urgent calls: ideal (at "
+            "once, always), icao (after 5 s, or 2.5 s if it changes, always) or observed (as "
+            "was measured: some late, too slowly, the wrong way, or not at all).",
+            "NAME",
+            default="the scenario's, or icao",
+        ),
+    ] = None
     topology: Annotated[
         Topology | None,
         Flag(

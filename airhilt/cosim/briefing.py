@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.setup import Setup
@@ -28,7 +28,11 @@ if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout
 
 
-def briefing_of(scenario: Scenario, site: ScenarioSite) -> Briefing:
+def briefing_of(
+    scenario: Scenario,
+    site: ScenarioSite,
+    advisory_channel: Literal["cockpit", "frequency"] = "cockpit",
+) -> Briefing:
     """Return the briefing for a scenario."""
     separation = scenario.separation
     return Briefing(
@@ -40,6 +44,7 @@ def briefing_of(scenario: Scenario, site: ScenarioSite) -> Briefing:
         animals=animal_labels(
             actor.kind for actor in scenario.actors if isinstance(actor, WildlifeSpec)
         ),
+        advisory_channel=advisory_channel,
     )
 
 

@@ -42,7 +42,7 @@ STAGES = ("adsb", "enhancement", "asr", "vision", "decision", "tts", EQUIPMENT)
 
 
 def requested_scenario(options: Options, scenario: Scenario) -> Scenario:
-    """Return a scenario with the radio, visibility, sensors and equipment that the options ask for.
+    """Return a scenario with the radio, people, weather and equipment that the options ask for.
 
     Raises
     ------
@@ -53,6 +53,8 @@ def requested_scenario(options: Options, scenario: Scenario) -> Scenario:
         "radio": requested_radio(options, scenario),
         "equipment": tuple(dict.fromkeys((*scenario.equipment, *options.equipment))),
     }
+    if options.crews is not None:
+        changes["crews"] = options.crews
     if options.visibility_m is not None:
         visibility = {"visibility_m": options.visibility_m}
         changes["weather"] = scenario.weather.model_copy(update=visibility)

@@ -513,7 +513,9 @@ class Simulation:
     # --- what is told -----------------------------------------------------------------------
 
     def _brief(self) -> None:
-        self._router.publish("briefing", briefing_of(self._setup.scenario, self._setup.site))
+        setup = self._setup
+        briefing = briefing_of(setup.scenario, setup.site, setup.options.advisory_channel)
+        self._router.publish("briefing", briefing)
         has_voice = self._participants.does("tts")
         self._seats.open(
             has_sound=self._backend.has_sound,

@@ -147,6 +147,10 @@ class WorldLoop:
             self._context.event("command", callsign, command.model_dump_json(exclude_none=True))
             self.obey(callsign, command)
 
+    def no_response(self, callsign: str, text: str) -> None:
+        """Publish that an actor does not do what it was told."""
+        self._context.event("no_response", callsign, text)
+
     def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Let an actor carry out the command of a person or a program."""
         match message:

@@ -180,4 +180,26 @@ class AdvisoryAudio(Header):
     engine: str
     sample_rate_hz: int = 16_000
     samples: int = Field(ge=0)
+    word_ends: tuple[int, ...] = Field(
+        default=(),
+        description="sample at which each word of the text has been said, words being separated "
+        "by spaces; empty: not known, so that the characters count in proportion",
+    )
     sha256: str = Field(description="of the PCM")
+
+    @property
+    def duration_s(self) -> float:
+        """Duration of the voice, in s."""
+        return self.samples / self.sample_rate_hz
+
+    def said_after_s(self, characters: int) -> float:
+        """Return the time from its beginning until so many characters of its text are said, in s.
+
+        Without times of words, the characters count in proportion of the whole duration.
+        """
+        if not self.text or characters >= len(self.text):
+            return self.duration_s
+        words = len(self.text[:characters].split())
+        if words and len(self.word_ends) == len(self.text.split()):
+            return self.word_ends[words - 1] / self.sample_rate_hz
+        return self.duration_s * characters / len(self.text)

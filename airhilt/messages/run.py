@@ -87,3 +87,6 @@ class Briefing(Message):
     animals: tuple[VisibleClass, ...] = Field(
         default=("bird", "coyote", "deer"), description="classes of pictures that are animals"
     )
+    advisory_channel: Literal["cockpit", "frequency"] = Field(
+        default="cockpit", description="where crews and drivers hear the voice of advisories"
+    )

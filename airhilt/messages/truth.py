@@ -139,6 +139,7 @@ EventKind = Literal[
     "unable",
     "failure",
     "pilot_reacts",
+    "no_response",
     "worker_lost",
     "radio_lost",
     "cameras_lost",

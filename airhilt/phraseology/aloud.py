@@ -14,14 +14,15 @@ _ALTITUDE = re.compile(r"\b([0-9]+) ft\b")
 _SECONDS = re.compile(r"\b([0-9]+) s\b")
 
 
-def read_aloud(text: str, recipient: str, style: Style) -> str:
+def read_aloud(text: str, recipient: str, style: Style, *, says_callsign: bool = True) -> str:
     """Return a written text as it is spoken to its recipient.
 
     Callsigns, runways, levels and units become words. Other numbers stay as they are, because any
-    voice reads them. The callsign of the recipient comes first.
+    voice reads them. The callsign of the recipient comes first, unless it is left out.
     """
     if text.startswith(f"{recipient} "):
-        text = f"{recipient}, {text.removeprefix(recipient).lstrip()}"
+        told = text.removeprefix(recipient).lstrip()
+        text = f"{recipient}, {told}" if says_callsign else told
     text = _RUNWAY.sub(lambda found: speak_runway(found[1], style), text)
     text = _RATE.sub(lambda found: f"{_hundreds(found[1], style)} feet per minute", text)
     text = _ALTITUDE.sub(lambda found: speak_altitude(float(found[1]), style), text)

@@ -9,7 +9,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, Tag, ValidationError
 
 from airhilt.errors import ScenarioError
 from airhilt.host import library
@@ -131,10 +131,11 @@ def _walk(model: type[BaseModel], loc: Sequence[str | int]) -> tuple[str, type[B
     parent: type[BaseModel] | None = None
     chunks: list[str] = []
     for part in loc:
-        members = _members(annotation)
-        tagged = [member for member in members if _tag(member) == part]
-        if len(members) > 1 and tagged:
-            annotation = tagged[0]
+        tagged = _members(annotation)
+        members = [member for _, member in tagged]
+        chosen = [member for tag, member in tagged if tag == part]
+        if len(members) > 1 and chosen:
+            annotation = chosen[0]
             continue
         chunks.append(str(part))
         if isinstance(part, int):
@@ -147,14 +148,16 @@ def _walk(model: type[BaseModel], loc: Sequence[str | int]) -> tuple[str, type[B
     return "/".join(chunks), parent
 
 
-def _members(annotation: Any) -> list[Any]:
-    """Return the members of a union, or the annotation alone, stripped of None."""
+def _members(annotation: Any) -> list[tuple[str | None, Any]]:
+    """Return the members of a union with their tags, or the annotation alone, without None."""
+    given: str | None = None
     while typing.get_origin(annotation) is typing.Annotated:
-        annotation = typing.get_args(annotation)[0]
+        annotation, *metadata = typing.get_args(annotation)
+        given = next((each.tag for each in metadata if isinstance(each, Tag)), given)
     if typing.get_origin(annotation) in (typing.Union, types.UnionType):
         inner = [a for a in typing.get_args(annotation) if a is not type(None)]
         return [member for a in inner for member in _members(a)]
-    return [annotation]
+    return [(given or _tag(annotation), annotation)]
 
 
 def _is_model(annotation: Any) -> bool:

@@ -17,7 +17,7 @@ from airhilt.station.started_runs import StartedRuns
 
 OFFERED = (
     "seed", "seat", "assistant", "snr_db", "visibility_m", "cameras", "speech", "isa_minutes",
-    "nasa_tlx", "voice_recording", "radar", "equipment",
+    "nasa_tlx", "voice_recording", "radar", "equipment", "crews",
 )  # fmt: skip
 """Options of a run that the page offers."""
 Name = Field(min_length=1, max_length=200)

@@ -27,6 +27,7 @@ OPTIONS_OF_PATHS = {
     "radio.profile": "radio_profile",
     "radio.topology": "topology",
     "weather.visibility_m": "visibility_m",
+    "crews": "crews",
 }
 """Options that replace a value of the scenario: one parameter, two spellings."""
 PLACES_OF_OPTIONS = {

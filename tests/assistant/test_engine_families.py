@@ -184,7 +184,7 @@ def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None
     )
     words = [Template().message(alert, recipient) for recipient in alert.recipients]
     assert words == [
-        "AAL123 go around, deer on runway 01, 12 s to go",
+        "AAL123 go around. Deer on runway 01, 12 s to go",
         "AAL123, deer on runway 01, 12 s to go; AAL123 go around",
     ]
 

@@ -22,7 +22,8 @@ from stations import TOKEN, reachable, stationed
 
 PATIENCE_S = 90.0
 CHOOSE = """
-    for (const [id, value] of [['scenario', 'own/mine.json'], ['radar', 'en_route']]) {
+    for (const [id, value] of [['scenario', 'own/mine.json'], ['radar', 'en_route'],
+                               ['crews', 'observed']]) {
         document.getElementById(id).value = value;
         document.getElementById(id).dispatchEvent(new Event('change'));
     }
@@ -220,6 +221,7 @@ def test_a_person_chooses_radar_equipment_and_that_voices_are_not_kept(
     options = options_of_page(asked["options"])
     assert options.seat == ("AAL123",)
     assert (options.radar, options.equipment) == ("en_route", ("tcas",))
+    assert options.crews == "observed"
     assert not options.voice_recording
 
 

@@ -130,6 +130,9 @@ class World:
         del condition
         self.director.at(self.director.now_ns, action, Priority.SCRIPT)
 
+    def no_response(self, callsign: str, text: str) -> None:
+        self.done.append((callsign, text, self.now_s))
+
     def do(self, callsign: str, command: Any) -> None:
         self.done.append((callsign, command, self.now_s))
 

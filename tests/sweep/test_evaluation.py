@@ -152,11 +152,25 @@ def test_an_assistant_runs_where_it_has_something_to_read() -> None:
 
 def test_without_cameras_and_sound_the_sweeps_that_need_them_are_left_out() -> None:
     every = full.specifications(EVERYTHING)
-    assert {"none", "reference", "modalities", "vision_alone", "topologies"} <= every.keys()
+    assert {
+        "none",
+        "reference",
+        "modalities",
+        "vision_alone",
+        "topologies",
+        "crews",
+    } <= every.keys()
     assert len(listed(every["modalities"].axes["modalities"])) == 5
     fewer = full.specifications(Choice(1, {"cameras": False, "speech": False}))
     assert every.keys() - fewer.keys() == {"vision_alone", "topologies"}
     assert listed(fewer["modalities"].axes["modalities"]) == ("asr", "adsb")
+
+
+def test_other_response_models_stand_beside_unless_the_user_chooses_one() -> None:
+    assert listed(full.specifications(EVERYTHING)["crews"].axes["crews"]) == ("ideal", "observed")
+    chosen = full.specifications(Choice(1, {"crews": "observed"}))
+    assert "crews" not in chosen
+    assert chosen["reference"].options["crews"] == "observed"
 
 
 def test_engines_that_nobody_would_ask_are_left_out_without_an_assistant() -> None:
@@ -213,7 +227,7 @@ def test_what_is_not_avoided_is_told_by_the_worst_that_came_of_it() -> None:
     assert found["paper"] == "-"
 
 
-def test_severity_modalities_and_topologies_have_tables() -> None:
+def test_severity_modalities_topologies_and_crews_have_tables() -> None:
     found = full_tables(EVERYTHING)
     severe = cells(found["severities"], "reference", "WARNING")
     assert (text(severe["loss"]), severe["advisories"]) == (
@@ -224,6 +238,7 @@ def test_severity_modalities_and_topologies_have_tables() -> None:
     given = {line[1] for line in found["modalities"].rows}
     assert given == {"all", *full.WITH_VISION.values()}
     assert {line[1] for line in found["topologies"].rows} == {"parallel", *full.FUSION}
+    assert {line[1] for line in found["crews"].rows} == {"icao", "ideal", "observed"}
 
 
 # --- tables ---------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from airhilt.messages import (
     SPEAK_MIN_LEVEL,
     Advisory,
     AdvisoryAudio,
+    Briefing,
     DeclaredLatency,
     InputSpec,
     Severity,
@@ -27,7 +28,8 @@ class TtsWorker:
     """Speaks the urgent advisories with one voice.
 
     An advisory to several recipients comes once to each; each copy is spoken, because every
-    recipient has a loudspeaker.
+    recipient has a loudspeaker. The recipient's own callsign is said on a frequency, but not by the
+    loudspeaker in its cockpit, as the briefing tells.
 
     Parameters
     ----------
@@ -45,23 +47,33 @@ class TtsWorker:
         self.description = WorkerDescription(
             name=name,
             modality="tts",
-            inputs=(InputSpec(key="advisory/*", policy="fifo"),),
+            inputs=tuple(InputSpec(key=key, policy="fifo") for key in ("advisory/*", "briefing")),
             latency=DeclaredLatency(median_s=0.1),
         )
         self._engine = engine
         self._voice = engine.voice_of(ASSISTANT)
         self._speak_min_level = speak_min_level
         self._style = style
+        self._says_callsign = False
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Speak the advisories that are active and urgent enough."""
         least = self._speak_min_level.rank
-        advisories = (Advisory.model_validate_json(item.payload) for item in inputs)
-        urgent = (each for each in advisories if each.active and each.severity.rank >= least)
-        return Step(tuple(map(self._speak, urgent)))
+        spoken: list[Output] = []
+        for item in inputs:
+            if item.key == "briefing":
+                briefing = Briefing.model_validate_json(item.payload)
+                self._says_callsign = briefing.advisory_channel == "frequency"
+                continue
+            advisory = Advisory.model_validate_json(item.payload)
+            if advisory.active and advisory.severity.rank >= least:
+                spoken.append(self._speak(advisory))
+        return Step(tuple(spoken))
 
     def _speak(self, advisory: Advisory) -> Output:
-        text = read_aloud(advisory.message, advisory.recipient, self._style)
+        text = read_aloud(
+            advisory.message, advisory.recipient, self._style, says_callsign=self._says_callsign
+        )
         pcm = to_pcm(self._engine.synthesise(text, self._voice))
         header = AdvisoryAudio(
             id=advisory.id,

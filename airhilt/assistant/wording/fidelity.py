@@ -16,6 +16,7 @@ from typing import NamedTuple
 from airhilt.messages import CONTROLLER, Severity
 from airhilt.phraseology import parse_call, tokens
 from airhilt.phraseology.callsigns import Naming, roster_of
+from airhilt.phraseology.instruction_end import action_end
 from airhilt.phraseology.slots import NAMED_RUNWAY, designator
 
 LONGEST = 200
@@ -33,6 +34,8 @@ DENYING = frozenset(
      "disregard", "until", "unless", "if"}
 )  # fmt: skip
 """Words of a message that a wording may not leave out either."""
+ADDED_BEFORE_ACTION = 2
+"""Words that a wording may add before the action, such as "immediately": an assumption."""
 ROLES = frozenset({"for", "by", "of", "from", "to", "behind", "after", "with"})
 """Words before a callsign that say what it has to do with the rest."""
 UNITS = {"s": "second", "seconds": "second", "second": "second", "feet": "feet", "foot": "feet",
@@ -138,7 +141,18 @@ def change(rule: str, reworded: str, recipient: str, severity: Severity) -> str:
         before, after = getattr(was, part), getattr(now, part)
         if after != before:
             return f"it changes the {what}: {_listed(after)}; expected {_listed(before)}"
+    known = tuple(sorted(callsigns))
+    before, after = _words_to_action(rule, known), _words_to_action(reworded, known)
+    if after > before + ADDED_BEFORE_ACTION:
+        return f"it names the action with word {after}; expected it with word {before}"
     return _changed_words(was, now, severity)
+
+
+def _words_to_action(text: str, callsigns: tuple[str, ...]) -> int:
+    """Return after how many words the first action of a text has been said, but for callsigns."""
+    words = tokens(text[: action_end(text, callsigns)])
+    _, rest = _without_callsigns(words, roster_of(callsigns).naming(words, is_written=True))
+    return len(rest)
 
 
 def _changed_words(was: Reading, now: Reading, severity: Severity) -> str:

@@ -32,6 +32,7 @@ Examples:
   airhilt cosim --scenario s02a_headon
   airhilt cosim --scenario my.json --seed 7 --latency lognormal --out runs/mine
   airhilt cosim --scenario s02a_headon --assistant none --json
+  airhilt cosim --scenario s02a_headon_tcas --crews observed --seed 3
   airhilt cosim --scenario s01b_nominal --seat tower
   airhilt cosim --scenario s02a_headon --view --pace realtime --share-truth
   airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach decision

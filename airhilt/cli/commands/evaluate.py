@@ -21,14 +21,14 @@ if TYPE_CHECKING:
     from airhilt.sweep.evaluation.preset import Choice, Preset
     from airhilt.sweep.work import Work
 
-CHOSEN = ("latency", "cameras", "renderer", "detector", "speech", "asr", "tts")
+CHOSEN = ("latency", "crews", "cameras", "renderer", "detector", "speech", "asr", "tts")
 """Options of runs that may be given; a preset settles or varies the others."""
 
 
 def _flags() -> list[click.Parameter]:
     from airhilt.cli.run_flags import run_flags
 
-    return run_flags(CHOSEN, {"latency": "the preset's"})
+    return run_flags(CHOSEN, {"latency": "the preset's", "crews": "the preset's, or icao"})
 
 
 @click.command(
@@ -46,7 +46,7 @@ Examples:
     required=True,
     metavar="NAME",
     help="paper: runway overlaps, with the numbers of the AIRHILT paper beside ours; full: all "
-    "families and assistants, modalities and topologies.",
+    "families and assistants, modalities, topologies and response models.",
 )
 @click.option(
     "--seeds",

@@ -4,7 +4,7 @@ const STRENGTH = {
 };
 /** Kinds of events that are marked on an actor's row: colour and meaning. */
 const EVENTS = {
-  command: ["var(--ink)", "receives a command"], failure: ["var(--bad)", "failure"], unable: ["var(--warn)", "unable"], pilot_reacts: ["var(--accent)", "reacts to an advisory"], actor_ended: ["var(--bad)", "ended"],
+  command: ["var(--ink)", "receives a command"], failure: ["var(--bad)", "failure"], unable: ["var(--warn)", "unable"], pilot_reacts: ["var(--accent)", "reacts to an advisory"], no_response: ["var(--warn)", "does not respond"], actor_ended: ["var(--bad)", "ended"],
 };
 const ownEvents = run.events.filter((event) => event.kind in EVENTS && trackOf(event.who));
 function eventSymbol(x, y, kind) {

@@ -52,6 +52,14 @@ from airhilt.scenario.models.failures import (
     StuckMicrophone,
 )
 from airhilt.scenario.models.radio import Radio, RadioLine, ScriptedCommand, StationRadio, Topology
+from airhilt.scenario.models.responses import (
+    RESPONSE_MODELS,
+    Channel,
+    Channels,
+    ResponseModel,
+    ResponseModelName,
+    Responses,
+)
 from airhilt.scenario.models.scenario import (
     Conflict,
     Normal,

@@ -65,16 +65,15 @@ GroundStart = Annotated[LinedUp | HoldingShort | Standing, Field(discriminator="
 
 
 class Reactions(Model):
-    """Reaction of a crew or a driver to an advisory; the reaction time is lognormal.
+    """Reaction of one crew or driver, in place of what the response model of the scenario says.
 
-    The default median of 5 s is the response to a first resolution advisory in the standard pilot
-    model of ICAO Annex 10, volume IV.
+    The reaction time is lognormal; null: as the response model has it.
     """
 
-    reaction_median_s: Number = Field(default=5.0, ge=0.0, le=120.0)
-    reaction_sigma: Number = Field(default=0.3, ge=0.0, le=2.0)
-    compliance: Share = Field(
-        default=1.0, description="probability of following an advisory at all"
+    reaction_median_s: Number | None = Field(default=None, ge=0.0, le=120.0)
+    reaction_sigma: Number | None = Field(default=None, ge=0.0, le=2.0)
+    compliance: Share | None = Field(
+        default=None, description="probability of responding at all, on every channel"
     )
 
 
@@ -141,7 +140,7 @@ class VehicleSpec(Model):
         max_length=MOST_COMMANDS,
         description="carried out at the start; the kind says which it understands",
     )
-    driver: Reactions = Reactions(reaction_median_s=2.5)
+    driver: Reactions = Reactions()
     transponder: Transponder = Transponder(equipped=False)
     adsb_in: Flag = Field(
         default=False,

@@ -12,6 +12,11 @@ from airhilt.scenario.models.base import Callsign, Identifier, Model
 from airhilt.scenario.models.conditions import Condition, Pair
 from airhilt.scenario.models.failures import Failure
 from airhilt.scenario.models.radio import Radio
+from airhilt.scenario.models.responses import (
+    RESPONSE_MODELS,
+    NamedOrOwnModel,
+    ResponseModel,
+)
 from airhilt.scenario.models.scene import Daylight, Scene, Weather
 from airhilt.scenario.models.sensors import Adsb, Camera, Radar, SurfaceSurveillance
 
@@ -95,6 +100,11 @@ class Scenario(Model):
     scene: Scene
     duration_s: Number = Field(gt=0.0, le=LONGEST_RUN_S, description="latest end of the run")
     actors: tuple[ActorSpec, ...] = Field(min_length=1, max_length=500)
+    crews: NamedOrOwnModel = Field(
+        default="icao",
+        description="response model of crews, drivers and controllers: its name, or a model of "
+        "your own",
+    )
     radio: Radio = Radio()
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = Field(default=(), max_length=100)
@@ -144,6 +154,11 @@ class Scenario(Model):
         default=(), max_length=20, description="the run ends when one is true"
     )
     perturbations: tuple[Perturbation, ...] = Field(default=(), max_length=500)
+
+    @property
+    def response_model(self) -> ResponseModel:
+        """Response model of crews, drivers and controllers."""
+        return RESPONSE_MODELS[self.crews] if isinstance(self.crews, str) else self.crews
 
     @property
     def pair(self) -> Pair | None:

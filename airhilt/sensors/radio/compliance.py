@@ -1,4 +1,8 @@
-"""Compliance: actors carry out the calls that they have taken; people choose if they do."""
+"""Compliance: actors carry out the calls that they have taken; people choose if they do.
+
+An ordinary instruction is always obeyed. Whether and when an urgent one is, one that a controller
+gives because of an advisory, is drawn from the response model.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,7 @@ from airhilt.commands import Command
 from airhilt.scenario.models import ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.world.actors.reactions import reaction_models
 
 COMPLY_AFTER_S = 2.0
 """Time in s from taking a call to doing what was understood, where that is not what was said. The
@@ -22,6 +27,9 @@ class Compliance:
         self._director = context.director
         self._world = context.world
         self._seats = context.seats
+        self._reactions = reaction_models(context.scenario, context.seed)
+        self._undone: set[tuple[str, str]] = set()
+        """Calls, and actors, of which was told that there is no response."""
 
     def carry_out(self, call: RadioCall, actor: str) -> None:
         """Let an actor do what the script has for it in a call."""
@@ -46,7 +54,20 @@ class Compliance:
         """Let an actor carry out a command in time; a person is offered it at once instead."""
         if self._offer(scripted.actor, call.id, scripted.command):
             return
+        if call.is_urgent:
+            response = self._reactions[scripted.actor].respond("controller", call.id)
+            if not response.follows:
+                self._leave_undone(call, scripted)
+                return
+            scripted = scripted.model_copy(update={"delay_s": response.delay_s})
         self._director.after(scripted.delay_s, partial(self._do_on_condition, call, scripted))
+
+    def _leave_undone(self, call: RadioCall, scripted: ScriptedCommand) -> None:
+        """Tell once that an actor does not respond to a call."""
+        if (call.id, scripted.actor) not in self._undone:
+            self._undone.add((call.id, scripted.actor))
+            does = scripted.command.action.replace("_", " ")
+            self._world.no_response(scripted.actor, f"does not respond to {does} ({call.id})")
 
     def _do_on_condition(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         def act() -> None:

@@ -33,6 +33,9 @@ class RadioWorld(Protocol):
     def do(self, callsign: str, command: Command) -> None:
         """Let an actor carry out a command."""
 
+    def no_response(self, callsign: str, text: str) -> None:
+        """Take in that an actor does not do what an urgent call says."""
+
 
 class RadioFailures(Protocol):
     """Gets what the failures of a scenario do to the radio."""

@@ -160,6 +160,8 @@ class RadioConversation:
 
     def _began(self, on_air: OnAir) -> None:
         self._transmissions.open(on_air)
+        if self._advisories is not None:
+            self._advisories.began(on_air)
         call = self._speakers.on_air.get(on_air.utterance.id)
         if call is not None:
             self._context.world.line_begun(call.id)

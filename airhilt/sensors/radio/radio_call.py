@@ -28,6 +28,8 @@ class RadioCall:
     in_reply_to: RadioCall | None = None
     is_of_person: bool = False
     """True if a person says it, in words of its own."""
+    is_urgent: bool = False
+    """True if a controller makes it because of an advisory: how it is obeyed is drawn."""
     is_repeated: bool = True
     """True if it is made again if it goes unanswered."""
     scripted: EffectiveLine | None = None

@@ -75,6 +75,7 @@ function optionsChosen() {
     nasa_tlx: form.has("nasa_tlx") || undefined,
     voice_recording: unlessCleared("voice-recording"),
     radar: given("radar"),
+    crews: given("crews"),
     equipment: ticked("equipment"),
     snr_db: number("snr_db"),
     visibility_m: number("visibility_m"),

@@ -8,7 +8,7 @@ from typing import Literal, Protocol
 
 from airhilt.commands import Command
 from airhilt.messages import Advisory, EmitterCategory, Recommendation
-from airhilt.scenario.models import ActorSpec
+from airhilt.scenario.models import ActorSpec, Channel
 from airhilt.world.mover import Mover
 
 Category = Literal["aircraft", "vehicle", "wildlife"]
@@ -27,6 +27,13 @@ class Reaction:
     """Carries out the action; returns False if there was nothing left to do. Raises `Unable` for a
     deferred command that cannot be carried out any more."""
     text: str
+    responds: bool = True
+    """False: the actor does nothing, as its response model says."""
+
+    @classmethod
+    def none(cls, to: str) -> Reaction:
+        """Return the reaction of an actor that does not respond to something."""
+        return cls(0.0, lambda: False, f"does not respond to {to}", responds=False)
 
 
 class Actor(Protocol):
@@ -64,8 +71,8 @@ class Actor(Protocol):
     def command(self, command: Command) -> None:
         """Carry out a command; raise `Unable` if the actor cannot."""
 
-    def hear(self, advisory: Advisory) -> Reaction | None:
-        """Return the reaction to an advisory; None if there is none."""
+    def hear(self, advisory: Advisory, channel: Channel = "assistant") -> Reaction | None:
+        """Return the reaction to an advisory that comes on a channel; None if it asks for none."""
 
     def follows(self, recommendation: Recommendation) -> bool:
         """Return whether the actor follows recommendations of this kind in any situation."""

@@ -11,14 +11,18 @@ from airhilt.commands import (
     AltitudeCommand,
     BehindCommand,
     Command,
+    ContinueCommand,
+    CrossCommand,
     DriftDownCommand,
     EmergencyDescentCommand,
     FollowCommand,
     HoldPositionCommand,
     HoldShortCommand,
+    LineUpCommand,
     ResumeRouteCommand,
     RouteCommand,
     SpeedCommand,
+    TakeOffCommand,
     TaxiCommand,
     TaxiToCommand,
     TrackCommand,
@@ -39,7 +43,7 @@ from airhilt.messages import (
     Recommendation,
     Turn,
 )
-from airhilt.scenario.models import AircraftSpec
+from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.actors.behind import BehindTraffic
@@ -47,7 +51,7 @@ from airhilt.world.actors.departure import Departure
 from airhilt.world.actors.envelope import Envelope
 from airhilt.world.actors.ground_bodies import TaxiingAircraft
 from airhilt.world.actors.ground_operations import Act, GroundOperations
-from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
+from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel, Response
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.actors.traffic import Traffic
 from airhilt.world.flight.aircraft import Aircraft
@@ -66,6 +70,8 @@ ENDS_DEPARTURE = (
     VacateCommand,
 )
 """Commands after which an aircraft lines up or takes off only when it is told again."""
+ON_TO_A_RUNWAY = (TakeOffCommand, LineUpCommand, ContinueCommand, CrossCommand)
+"""Commands by which an aircraft goes on to a runway, or takes off from it."""
 EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
     "jet": "A3",
     "heavy_jet": "A5",
@@ -85,7 +91,8 @@ class Crew:
     A command that comes while an advisory is followed is deferred until the conflict is over.
     `RunwayOperations` carries out commands about approaches and landings, `Departure` those about
     takeoffs, `GroundOperations` those about taxiways. Reaction times and compliance are drawn from
-    the seed of the run. ``actors`` are all actors of the scenario by callsign, itself among them.
+    a seed (`airhilt.world.actors.reactions.response_seed`). ``actors`` are all actors of the
+    scenario by callsign, itself among them.
     """
 
     category: Literal["aircraft"] = "aircraft"
@@ -97,6 +104,7 @@ class Crew:
         site: ScenarioSite,
         seed: int,
         actors: Mapping[str, Actor] = MappingProxyType({}),
+        responses: Channels = RESPONSE_MODELS["icao"].crews,
     ) -> None:
         self.spec = spec
         self.body = aircraft
@@ -105,7 +113,7 @@ class Crew:
         self._ground = GroundOperations(TaxiingAircraft(aircraft), site, traffic)
         self._departure = Departure(aircraft, site, self._ground, self.runway_operations)
         self._behind = BehindTraffic(traffic)
-        self._reactions = ReactionModel(spec.callsign, spec.pilot, seed)
+        self._reactions = ReactionModel(spec.callsign, responses, spec.pilot, seed)
         self._site = site
         self._envelope = Envelope(aircraft, site.ground_m)
         self._return_lateral: Callable[[], None] = partial(
@@ -113,6 +121,10 @@ class Crew:
         )
         self._altitude_before_m = aircraft.target_altitude_m
         self._followed: dict[str, int] = {}
+        self._responding: set[str] = set()
+        """Ids of the advisories that it follows, or is about to."""
+        self._holding: set[str] = set()
+        """Ids of the advisories because of which it keeps off a runway."""
         self._over: set[str] = set()
         self._deferred: list[Command] = []
         self._has_turned = False
@@ -183,8 +195,12 @@ class Crew:
     def _plan(self, command: Command) -> Act | None:
         """Return what carries out a command on the ground; None for one that is for the air.
 
-        `Unable`, ValueError or ScenarioError says why it cannot be carried out.
+        A crew that holds because of a warning does not go on to a runway by a clearance that it
+        took before, nor by another one, until the warning is over. `Unable`, ValueError or
+        ScenarioError says why a command cannot be carried out.
         """
+        if self._holding and isinstance(command, ON_TO_A_RUNWAY):
+            raise Unable("unable, holding because of a warning")
         why = self._envelope.unflyable(command)
         if why is not None:
             raise Unable(f"unable {why}")
@@ -234,28 +250,38 @@ class Crew:
 
     # --- advisories -------------------------------------------------------------------------
 
-    def hear(self, advisory: Advisory) -> Reaction | None:
-        """Return the crew's reaction to an advisory; None if there is none."""
-        reactions, again = self._reactions, advisory.id in self._followed
+    def hear(self, advisory: Advisory, channel: Channel = "assistant") -> Reaction | None:
+        """Return the crew's reaction to an advisory; None if it asks for none."""
+        recommendation = advisory.recommendation
+        response = self._reactions.respond(
+            channel,
+            advisory.id,
+            revision=advisory.revision,
+            is_repeated=advisory.id in self._responding,
+            is_vertical=isinstance(recommendation, Climb),
+        )
         if not advisory.active:
             self._over.add(advisory.id)
-            if not again:
+            self._responding.discard(advisory.id)
+            self._holding.discard(advisory.id)
+            if advisory.id not in self._followed:
                 return None
-            delay_s = reactions.delay_s(advisory, again)
-            return Reaction(delay_s, lambda: self._resume(advisory.id), "resumes")
+            return Reaction(response.delay_s, lambda: self._resume(advisory.id), "resumes")
         self._over.discard(advisory.id)
-        recommendation = advisory.recommendation
         if recommendation is None or advisory.severity.rank < FOLLOWED_FROM.rank:
             return None
-        if not reactions.complies(advisory.id):
-            return None
+        if not response.follows:
+            return Reaction.none(recommendation.action)
+        self._responding.add(advisory.id)
         return Reaction(
-            reactions.delay_s(advisory, again),
-            lambda: self._follow(advisory, recommendation),
-            f"follows {recommendation.action}",
+            response.delay_s,
+            lambda: self._follow(advisory, recommendation, response),
+            f"follows {recommendation.action}{response.manner}",
         )
 
-    def _follow(self, advisory: Advisory, recommendation: Recommendation) -> bool:
+    def _follow(
+        self, advisory: Advisory, recommendation: Recommendation, response: Response
+    ) -> bool:
         if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
             return False
         try:
@@ -263,10 +289,12 @@ class Crew:
                 case GoAround():
                     return self.runway_operations.go_around()
                 case CancelTakeoff():
-                    return self._departure.cancel_takeoff()
+                    return self._hold(advisory, self._departure.cancel_takeoff())
                 case HoldPosition():
-                    return self._hold_position()
-                case Climb() | MaintainLevel() | Turn():
+                    return self._hold(advisory, self._hold_position())
+                case Climb():
+                    return self._avoid(advisory, self._flown(recommendation, response))
+                case MaintainLevel() | Turn():
                     return self._avoid(advisory, recommendation)
                 case Confirm():
                     return False
@@ -279,6 +307,20 @@ class Crew:
             return False
         self._carry_out(HoldPositionCommand(action="hold_position"))
         return True
+
+    def _hold(self, advisory: Advisory, has_stopped: bool) -> bool:
+        """Note that the crew holds because of an advisory, and return whether it has stopped."""
+        if has_stopped or self.body.phase in ("standing", "lined_up"):
+            self._holding.add(advisory.id)
+        return has_stopped
+
+    def _flown(self, told: Climb, response: Response) -> Climb:
+        """Return what the crew flies of a climb or descent; the wrong way ends above the ground."""
+        flown = response.flown(told, self.body.state.altitude_m / FOOT)
+        if response.is_opposite:
+            lowest_ft = max(flown.altitude_ft, self._envelope.lowest_ft)
+            return flown.model_copy(update={"altitude_ft": lowest_ft})
+        return flown
 
     def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
         if self._must_descend_below(recommendation):

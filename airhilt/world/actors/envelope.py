@@ -43,6 +43,11 @@ class Envelope:
                 return self._altitude(altitude_ft)
         return None
 
+    @property
+    def lowest_ft(self) -> int:
+        """Lowest altitude to fly level at, in ft."""
+        return round(self.ground_m / FOOT) + LOWEST_HEIGHT_FT
+
     def too_low(self, altitude_ft: float) -> str | None:
         """Return why the aircraft cannot go to a level that an advisory recommends; None if it can.
 
@@ -61,7 +66,7 @@ class Envelope:
 
     def _altitude(self, altitude_ft: float) -> str | None:
         kind = self.aircraft.kind
-        lowest_ft = round(self.ground_m / FOOT) + LOWEST_HEIGHT_FT
+        lowest_ft = self.lowest_ft
         ceiling_ft = round(kind.speeds.service_ceiling_ft)
         if lowest_ft <= altitude_ft <= ceiling_ft:
             return None

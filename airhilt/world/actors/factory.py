@@ -26,7 +26,7 @@ from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Actor, Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import ReactionModel
+from airhilt.world.actors.reactions import ReactionModel, response_seed
 from airhilt.world.actors.surface_actors import Animal, Driver
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.aircraft_type import load_aircraft_type
@@ -114,7 +114,9 @@ class _Builder:
             terrain_elevation_m=site.ground_m,
             tick_s=self.tick_s,
         )
-        crew = Crew(actor, aircraft, site, self.seed, self.actors)
+        seed = response_seed(self.scenario, self.seed)
+        responses = self.scenario.response_model.crews
+        crew = Crew(actor, aircraft, site, seed, self.actors, responses)
         match actor.initial:
             case OnFinal(runway=runway):
                 crew.runway_operations.begin_on_final(runway)
@@ -132,7 +134,9 @@ class _Builder:
         body = kind.create(
             place, heading, ground_m=self.site.ground_m, tick_s=self.tick_s, seed=self.seed
         )
-        reactions = ReactionModel(actor.callsign, actor.driver, self.seed)
+        responses = self.scenario.response_model.drivers
+        seed = response_seed(self.scenario, self.seed)
+        reactions = ReactionModel(actor.callsign, responses, actor.driver, seed)
         driver = Driver(kind, body, self.site, actor, reactions, self.actors)
         for command in actor.commands:
             driver.command(command)

@@ -18,7 +18,7 @@ from airhilt.commands import (
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.messages import Advisory, EmitterCategory, HoldPosition, Recommendation
-from airhilt.scenario.models import VehicleSpec, WildlifeSpec
+from airhilt.scenario.models import Channel, VehicleSpec, WildlifeSpec
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.actors.behind import BehindTraffic
 from airhilt.world.actors.ground_bodies import DrivenVehicle
@@ -117,19 +117,23 @@ class Driver(_SurfaceActor[Driven]):
             return self._behind.plan(command)
         return self._ground.plan(command)
 
-    def hear(self, advisory: Advisory) -> Reaction | None:
-        """Return the driver's reaction to an advisory; None if there is none."""
+    def hear(self, advisory: Advisory, channel: Channel = "assistant") -> Reaction | None:
+        """Return the driver's reaction to an advisory; None if it asks for none."""
         recommendation = advisory.recommendation
         is_urgent = advisory.active and advisory.severity.rank >= FOLLOWED_FROM.rank
         if recommendation is None or not is_urgent:
             return None
         command = self.kind.command_for(recommendation)
-        if command is None or not self.reactions.complies(advisory.id):
+        if command is None:
             return None
+        response = self.reactions.respond(channel, advisory.id, revision=advisory.revision)
+        if not response.follows:
+            return Reaction.none(recommendation.action)
         holds = isinstance(recommendation, HoldPosition)
         does = "holds position" if holds else f"follows {recommendation.action}"
-        delay_s = self.reactions.delay_s(advisory, again=False)
-        return Reaction(delay_s, lambda: self._carry_out(command), does)
+        return Reaction(
+            response.delay_s, lambda: self._carry_out(command), f"{does}{response.manner}"
+        )
 
     def follows(self, recommendation: Recommendation) -> bool:
         """Return whether drivers of its kind have a command for such a recommendation."""
@@ -170,7 +174,7 @@ class Animal(_SurfaceActor[Creature]):
         except (ValueError, ScenarioError) as error:
             raise Unable(str(error)) from None
 
-    def hear(self, advisory: Advisory) -> Reaction | None:  # noqa: ARG002
+    def hear(self, advisory: Advisory, channel: Channel = "assistant") -> Reaction | None:  # noqa: ARG002
         """Return None: animals get no advisories."""
         return None
 

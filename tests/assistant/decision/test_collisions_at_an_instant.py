@@ -201,7 +201,7 @@ def test_the_crew_alone_is_told_what_is_there_and_goes_around_from_a_severity_on
     told = [told for _, told in field.told]
     assert [each.severity for each in told] == ["CAUTION", "WARNING"]
     for number, each in enumerate(told):
-        action = "go around, " if number >= from_severity else ""
+        action = "go around. " if number >= from_severity else ""
         assert each.message.startswith(f"AAL123 {action}OPS1 is on runway 01")
         assert each.evidence.sources == ("adsb",)
         assert len(each.evidence.tracks) == 2

@@ -98,7 +98,7 @@ def test_the_answer_becomes_an_advisory_to_each_recipient() -> None:
     assert crew.message == "AAL123 traffic ahead, climb"
     assert crew.recommendation == Climb(sense="climb", altitude_ft=5000, vertical_rate_fpm=1500)
     assert crew.evidence.rules == ("mine",)
-    assert controller.message == "AAL123, near; AAL123 climb to 5000 ft at 1500 ft/min"
+    assert controller.message == "AAL123, near; AAL123 climb to 5000 ft"
     assert controller.recommendation is None
 
 

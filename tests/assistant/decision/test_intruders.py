@@ -84,7 +84,7 @@ def test_a_light_aircraft_head_on_is_a_warning_a_quarter_of_a_minute_before(
     assert warning.traffic == ("AAL123", "unidentified")
     assert warning.evidence.sources == ("vision",)
     assert isinstance(warning.recommendation, Climb)
-    assert warning.message.startswith("AAL123 traffic ahead, no transponder, closing, ")
+    assert warning.message.endswith(". Traffic ahead, no transponder, closing")
     left_s = warning.evidence.time_to_closest_approach_s
     assert left_s == pytest.approx(first(encounter, "WARNING"), rel=0.5)
 
@@ -104,7 +104,7 @@ def test_who_crosses_from_the_left_is_seen_by_a_wider_camera_only(seed: int) -> 
     assert meeting(seed, track=180.0).fly().told == []
     encounter = meeting(seed, track=180.0, **cast(dict[str, Any], wide)).fly()
     assert first(encounter, "WARNING") > 8.0
-    assert "traffic ahead to the left" in encounter.to("AAL123")[-2].message
+    assert "Traffic ahead to the left" in encounter.to("AAL123")[-2].message
 
 
 @pytest.mark.parametrize(
@@ -146,7 +146,7 @@ def test_but_to_a_camera_whose_carrier_does_not_even_who_squitters_is_an_intrude
     encounter = meeting(equipped=True, own_equipped=False, size=AIRLINER).fly()
     warning = next(a for a in encounter.to("AAL123") if a.severity is Severity.WARNING)
     assert warning.traffic == ("AAL123", "N172SP")
-    assert warning.message.startswith("AAL123 traffic N172SP ahead, closing, turn right")
+    assert warning.message == "AAL123 turn right 30 degrees. Traffic N172SP ahead, closing"
 
 
 def test_a_new_track_of_the_same_aircraft_is_the_same_alert() -> None:
@@ -189,7 +189,8 @@ def test_what_flickers_here_and_there_is_nobody() -> None:
 def test_a_flock_ahead_is_birds_and_the_way_out_is_up() -> None:
     encounter = meeting(kt=20.0, label="bird", size=FLOCK).fly()
     warning = encounter.to("AAL123")[-2]
-    assert warning.message.startswith("AAL123 birds ahead, closing, climb")
+    assert warning.message.startswith("AAL123 climb to ")
+    assert warning.message.endswith(". Birds ahead, closing")
 
 
 def test_what_may_stand_on_the_ground_is_not_in_the_air() -> None:

@@ -25,7 +25,7 @@ def silences(airfield: Airfield) -> list[tuple[float, str]]:
     return [
         (t_s, advisory.recipient)
         for t_s, advisory in airfield.told
-        if advisory.active and "has not read back" in advisory.message
+        if advisory.active and "not read back" in advisory.message
     ]
 
 

@@ -64,7 +64,7 @@ def test_red_before_one_who_stands_is_an_advisory_and_against_it_a_warning_to_ho
     (drives,) = Lights().told(truck(5.0, 5.0), lands())
     assert (drives.severity, drives.recipients) == ("WARNING", ("OPS1",))
     assert drives.recommendations == {"OPS1": HoldPosition(runway="01")}
-    assert words(drives) == "OPS1 hold position, entrance lights red for runway 01, traffic AAL123"
+    assert words(drives) == "OPS1 hold position. Entrance lights red for runway 01, traffic AAL123"
 
 
 def test_one_who_cannot_stop_short_of_the_runway_is_left_to_their_judgement() -> None:

@@ -10,7 +10,7 @@ import pytest
 from airhilt.assistant.tts.worker import TtsWorker
 from airhilt.audio.pcm import Audio, from_pcm
 from airhilt.errors import SpeechError
-from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
+from airhilt.messages import Advisory, AdvisoryAudio, Briefing, Evidence, Severity
 from airhilt.sim.worker import Input, Output
 from airhilt.voices.engine import VoiceSpec
 from tone import Tone
@@ -71,10 +71,26 @@ def test_callsigns_runways_and_units_are_spoken_as_on_the_radio() -> None:
     message = "AAL123 traffic N54G on runway 01L, 30 s to go; descend to 34400 ft at 1500 ft/min"
     (output,) = spoken(TtsWorker(Tone(), style="icao"), advisory(message=message))
     assert AdvisoryAudio.model_validate(output.attachment).text == (
-        "American one two tree, traffic November fife fower golf on runway zero one left, "
+        "traffic November fife fower golf on runway zero one left, "
         "30 seconds to go, descend to flight level tree fower fower "
         "at one thousand fife hundred feet per minute"
     )
+
+
+@pytest.mark.parametrize(
+    ("channel", "first"), [("cockpit", "go around. "), ("frequency", "American one twenty three, ")]
+)
+def test_its_own_callsign_is_said_to_a_crew_on_a_frequency_alone(channel: Any, first: str) -> None:
+    worker = TtsWorker(Tone())
+    briefing = Briefing(
+        controller="TWR",
+        horizontal_separation_nm=5.0,
+        vertical_separation_ft=1000.0,
+        advisory_channel=channel,
+    )
+    worker.step(0, [Input("briefing", 0, briefing.model_dump_json().encode())])
+    (output,) = spoken(worker, advisory(message="AAL123 go around. OPS1 is on runway 01"))
+    assert AdvisoryAudio.model_validate(output.attachment).text.startswith(first)
 
 
 class Broken(Tone):

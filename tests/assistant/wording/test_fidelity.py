@@ -49,6 +49,7 @@ def test_the_same_in_other_words_is_spoken(rule: str, reworded: str) -> None:
         (GO_AROUND, "AAL123 when able go around, UAL7 is on runway 19L, 12 s to go", "actions"),
         (GO_AROUND, "AAL123 go around if you like, UAL7 is on runway 19L, 12 s to go", "actions"),
         (GO_AROUND, "AAL123 go around, UAL7 is on runway 19L, 12 s to go, disregard", "words"),
+        (GO_AROUND, "AAL123 UAL7 is on runway 19L, 12 s to go, go around", "expected it with"),
         (GO_AROUND, "AAL123 go around {UAL7}", "characters"),
         (GO_AROUND, "", "characters"),
         (CLIMB, CLIMB.replace("5000", "4000"), "actions"),

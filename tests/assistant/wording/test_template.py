@@ -7,7 +7,7 @@ from dataclasses import replace
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.findings import LossOfSeparation, Occupied
 from airhilt.assistant.wording.engines.template import Template
-from airhilt.messages import CONTROLLER, Evidence, HoldPosition, Severity
+from airhilt.messages import CONTROLLER, Climb, Evidence, HoldPosition, Severity
 
 OCCUPIED = Alert(
     id="01-DAL456",
@@ -24,9 +24,21 @@ OCCUPIED = Alert(
 
 def test_who_occupies_a_runway_is_told_of_itself_and_others_of_it() -> None:
     told = {name: Template().message(OCCUPIED, name) for name in OCCUPIED.recipients}
-    assert told["DAL456"] == "DAL456 hold position, you are on runway 01"
+    assert told["DAL456"] == "DAL456 hold position. You are on runway 01"
     assert told["AAL123"] == "AAL123 DAL456 is on runway 01"
     assert told[CONTROLLER] == "DAL456 is on runway 01; DAL456 hold position"
+
+
+def test_who_is_to_act_is_told_first_what_to_do() -> None:
+    finding = LossOfSeparation(("AAL123", "DAL456"), 31.0)
+    down = Climb(sense="descend", altitude_ft=34_400.0, vertical_rate_fpm=1500.0)
+    alert = replace(OCCUPIED, finding=finding, recommendations={"AAL123": down})
+    told = Template().message(alert, "AAL123")
+    assert told == "AAL123 descend to 34400 ft. Traffic DAL456, loss of separation in 31 s"
+    faster = replace(
+        alert, recommendations={"AAL123": down.model_copy(update={"vertical_rate_fpm": 2500.0})}
+    )
+    assert " at 2500 ft/min. " in Template().message(faster, "AAL123")
 
 
 def test_separation_that_is_lost_already_is_lost_in_no_time() -> None:

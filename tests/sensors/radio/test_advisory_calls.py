@@ -5,7 +5,9 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any, cast
 
-from airhilt.messages import Advisory, AdvisoryAudio, Evidence, HearingTruth, Severity
+import pytest
+
+from airhilt.messages import Advisory, AdvisoryAudio, Evidence, HearingTruth, Severity, Turn
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
 from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import OnAir, Utterance
@@ -41,9 +43,10 @@ class Frequency:
         self.director = Director(Virtual())
         self.said: list[Utterance] = []
         self.heard: list[tuple[Any, ...]] = []
+        """Advisories that were heard, each with the time in s from the beginning of its words."""
         self.hearings: list[Any] = []
         self.in_reach = True
-        delivery = SimpleNamespace(heard=lambda *spoken: self.heard.append(spoken))
+        delivery = SimpleNamespace(begin=self._begin)
         transmissions = SimpleNamespace(reaches=lambda on_air, listener: self.in_reach)
         context = radio_context(
             director=self.director,
@@ -58,10 +61,16 @@ class Frequency:
             cast(Transmissions, transmissions),
         )
 
+    def _begin(self, advisory: Advisory, after_s: float, is_heard: Any) -> None:
+        if is_heard():
+            self.heard.append((advisory.id, advisory.revision, advisory.recipient, after_s))
+
     def end(self) -> None:
-        """Let the last one end, and the pause after it pass."""
+        """Let the last one begin and end, and the pause after it pass."""
         now_ns = self.director.now_ns
-        self.calls.ended(OnAir(self.said[-1], now_ns, now_ns + SECOND_NS, None))
+        on_air = OnAir(self.said[-1], now_ns, now_ns + SECOND_NS, None)
+        self.calls.began(on_air)
+        self.calls.ended(on_air)
         self.director.run()
 
     @property
@@ -95,7 +104,7 @@ def test_its_recipient_has_heard_it_when_it_has_ended_if_it_is_in_reach() -> Non
     frequency.calls.take(advisory("a", "a1b2c3"), b"")
     assert frequency.heard == []
     frequency.end()
-    assert frequency.heard == [("a", 0, "a1b2c3")]
+    assert frequency.heard == [("a", 0, "a1b2c3", 1.0)]
     frequency.in_reach = False
     frequency.calls.take(advisory("b"), b"")
     frequency.end()
@@ -103,6 +112,19 @@ def test_its_recipient_has_heard_it_when_it_has_ended_if_it_is_in_reach() -> Non
     hearings = [(one.actor, one.outcome) for one in frequency.hearings]
     assert hearings == [("AAL123", "understood"), ("AAL123", "missed")]
     assert all(isinstance(one, HearingTruth) for one in frequency.hearings)
+
+
+def test_its_recipient_gets_it_once_callsign_and_instruction_have_been_said() -> None:
+    for text, after_s in (
+        ("AAL123 turn left 20 degrees", 1.0),
+        ("AAL123 turn left 20 degrees. " + 26 * "x", 0.5),
+        ("turn left 20 degrees, AAL123 " + 27 * "x", 0.5),
+    ):
+        frequency = Frequency()
+        turn = {"message": text, "recommendation": Turn(degrees=-20.0)}
+        frequency.calls.take(advisory("a").model_copy(update=turn), b"")
+        frequency.end()
+        assert frequency.heard == [("a", 0, "AAL123", pytest.approx(after_s, abs=0.02))]
 
 
 def test_nothing_is_said_to_the_controller_or_below_a_caution() -> None:

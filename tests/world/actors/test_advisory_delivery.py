@@ -1,4 +1,4 @@
-"""Actors react to an advisory when they get it: from the screen, or when its voice begins."""
+"""Actors react to an advisory once they have read it, or heard its instruction to the end."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from airhilt.messages import (
     MaintainLevel,
     SeatAction,
     Severity,
+    Turn,
 )
 from airhilt.seats import Seats
 from airhilt.sim import Director, Priority, Virtual
@@ -30,14 +31,17 @@ class Crew:
 
     category = "aircraft"
 
-    def __init__(self, unable: bool = False) -> None:
+    def __init__(self, unable: bool = False, responds: bool = True) -> None:
         self.spec = SimpleNamespace(callsign="AAL123", icao24="a1b2c3")
         self.body = SimpleNamespace(ended=None)
         self.heard: list[tuple[int, bool]] = []
         self.unable = unable
+        self.responds = responds
 
-    def hear(self, advisory: Advisory) -> Reaction:
+    def hear(self, advisory: Advisory, channel: str) -> Reaction:
         self.heard.append((advisory.revision, advisory.active))
+        if not self.responds:
+            return Reaction.none("turn")
         return Reaction(2.0, self.act, "follows turn")
 
     def act(self) -> bool:
@@ -52,14 +56,26 @@ def advisory(
     return Advisory(
         id="d-1", revision=revision, recipient=recipient, recipients=(recipient,),
         kind="runway_conflict", severity=Severity(severity), active=active, traffic=("AAL123",),
-        message="turn", evidence=Evidence(sources=("adsb",)), t_ready_ns=0,
+        message="turn", recommendation=Turn(degrees=-20.0), evidence=Evidence(sources=("adsb",)),
+        t_ready_ns=0,
     )  # fmt: skip
 
 
-def audio(revision: int = 0, recipient: str = "AAL123") -> AdvisoryAudio:
+FIRST = "turn left 20 degrees traffic four miles!"
+"""Text whose instruction ends in its middle."""
+LAST = "traffic four miles! turn left 20 degrees"
+
+
+def audio(
+    revision: int = 0,
+    recipient: str = "AAL123",
+    text: str = FIRST,
+    word_ends: tuple[int, ...] = (),
+) -> AdvisoryAudio:
+    """Return a voice of four seconds."""
     return AdvisoryAudio(
-        id="d-1", revision=revision, recipient=recipient, text="turn", t_dec_ns=0, engine="test",
-        samples=1, sha256="",
+        id="d-1", revision=revision, recipient=recipient, text=text, t_dec_ns=0, engine="test",
+        samples=64_000, word_ends=word_ends, sha256="",
     )  # fmt: skip
 
 
@@ -70,10 +86,11 @@ class Told:
         voiced: bool = True,
         lost_at_s: float | None = None,
         unable: bool = False,
+        responds: bool = True,
     ) -> None:
         """Take in messages, each at its time in seconds, and let the crew react."""
         director = Director(Virtual())
-        self.crew = Crew(unable)
+        self.crew = Crew(unable, responds)
         self.events: list[tuple[str, str, str, float]] = []
 
         def event(kind: str, subject: str, text: str) -> None:
@@ -106,8 +123,21 @@ def test_without_a_voice_an_advisory_is_read_as_it_is_decided() -> None:
     assert told.events == [("pilot_reacts", "AAL123", "follows turn (d-1)", 12.0)]
 
 
-def test_a_spoken_advisory_is_heard_when_its_voice_begins() -> None:
-    assert Told((10.0, advisory()), (11.0, audio())).reacted_s == [13.0]
+def test_a_spoken_advisory_is_heard_when_its_instruction_has_been_said() -> None:
+    assert Told((10.0, advisory()), (11.0, audio())).reacted_s == [15.0]
+    assert Told((10.0, advisory()), (11.0, audio(text=LAST))).reacted_s == [17.0]
+
+
+def test_the_times_of_words_count_where_the_voice_gives_them() -> None:
+    ends = tuple(8_000 * (n + 1) for n in range(7))
+    assert Told((10.0, advisory()), (11.0, audio(word_ends=ends))).reacted_s == [15.0]
+    assert Told((10.0, advisory()), (11.0, audio(word_ends=(1, 2, 3, 4, 5, 6, 7)))).reacted_s == [
+        pytest.approx(13.0, abs=0.001)
+    ]
+
+
+def test_words_in_which_no_instruction_is_found_are_heard_to_their_end() -> None:
+    assert Told((10.0, advisory()), (11.0, audio(text="look out"))).reacted_s == [17.0]
 
 
 @pytest.mark.parametrize("severity", ["INFO", "ADVISORY"])
@@ -120,10 +150,31 @@ def test_what_is_over_is_read_and_its_voice_comes_too_late() -> None:
     assert told.crew.heard == [(1, False)]
 
 
-def test_the_voice_of_an_older_revision_is_not_acted_upon() -> None:
-    told = Told((10.0, advisory()), (10.5, advisory(revision=1)), (11.0, audio()), (12.0, audio(1)))
+def test_a_revision_that_comes_while_another_is_spoken_is_heard_after_it() -> None:
+    told = Told((10.0, advisory()), (11.0, audio()), (12.0, advisory(revision=1)), (14.0, audio(1)))
+    assert told.crew.heard == [(0, True), (1, True)]
+    assert told.reacted_s == [15.0, 18.0]
+
+
+def test_what_is_superseded_before_it_was_done_is_not_done() -> None:
+    messages = [(10.0, advisory()), (11.0, advisory(1)), (11.5, advisory(2))]
+    assert Told(*messages, voiced=False).reacted_s == [13.5]
+    over = (11.9, advisory(3, active=False))
+    assert Told(*messages, over, voiced=False).reacted_s == [13.9]
+
+
+def test_what_is_over_before_its_instruction_has_been_said_is_not_acted_upon() -> None:
+    told = Told((10.0, advisory()), (11.0, audio()), (12.0, advisory(revision=1, active=False)))
+    assert told.crew.heard == [(1, False)]
+
+
+def test_a_revision_of_which_a_later_one_was_heard_is_not_heard_any_more() -> None:
+    told = Told((10.0, advisory()), (10.5, advisory(revision=1)), (11.0, audio(1)), (12.0, audio()))
     assert told.crew.heard == [(1, True)]
-    assert told.reacted_s == [14.0]
+
+
+def test_what_is_being_said_when_the_voice_is_lost_is_heard_to_its_end() -> None:
+    assert Told((10.0, advisory()), (11.0, audio()), lost_at_s=12.0).reacted_s == [15.0]
 
 
 def test_when_the_voice_is_lost_what_waited_for_it_is_read() -> None:
@@ -133,7 +184,7 @@ def test_when_the_voice_is_lost_what_waited_for_it_is_read() -> None:
 
 def test_an_advisory_reaches_a_crew_by_its_address() -> None:
     told = Told((1.0, advisory(recipient="a1b2c3")), (2.0, audio(recipient="a1b2c3")))
-    assert told.reacted_s == [4.0]
+    assert told.reacted_s == [6.0]
 
 
 def test_an_advisory_for_somebody_else_reaches_nobody() -> None:
@@ -143,6 +194,11 @@ def test_an_advisory_for_somebody_else_reaches_nobody() -> None:
 def test_what_cannot_be_done_is_told() -> None:
     told = Told((1.0, advisory()), voiced=False, unable=True)
     assert told.events == [("unable", "AAL123", "unable to turn", 3.0)]
+
+
+def test_who_does_not_respond_is_told_of_once() -> None:
+    told = Told((1.0, advisory()), (2.0, advisory(1)), voiced=False, responds=False)
+    assert told.events == [("no_response", "AAL123", "does not respond to turn (d-1)", 1.0)]
 
 
 def equipment(revision: int = 0, active: bool = True, tells: bool = True) -> EquipmentAlert:

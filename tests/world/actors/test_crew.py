@@ -18,7 +18,7 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.positions import GeodeticPosition
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
-from airhilt.scenario.models import AircraftSpec, Reactions
+from airhilt.scenario.models import AircraftSpec, Channels, Reactions, Responses
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
@@ -164,12 +164,12 @@ def test_reaction_times_lie_about_their_median(aircraft: Aircraft) -> None:
 @examples(30)
 @given(st.integers(0, 2**40))
 def test_compliance_0_never_follows_and_1_always_does(aircraft: Aircraft, seed: int) -> None:
-    assert crew_of(aircraft, compliance=0.0, seed=seed).hear(advisory()) is None
-    assert crew_of(aircraft, compliance=1.0, seed=seed).hear(advisory()) is not None
+    assert not crew_of(aircraft, compliance=0.0, seed=seed).hear(advisory()).responds
+    assert crew_of(aircraft, compliance=1.0, seed=seed).hear(advisory()).responds
 
 
 def test_compliance_is_how_many_crews_follow(aircraft: Aircraft) -> None:
-    follow = [crew_of(aircraft, 0.3, seed=seed).hear(advisory()) is not None for seed in range(400)]
+    follow = [crew_of(aircraft, 0.3, seed=seed).hear(advisory()).responds for seed in range(400)]
     assert 0.22 <= statistics.mean(follow) <= 0.38
 
 
@@ -179,7 +179,7 @@ def test_whether_a_crew_follows_does_not_change_with_the_revision(
     aircraft: Aircraft, seed: int
 ) -> None:
     crew = crew_of(aircraft, compliance=0.5, seed=seed)
-    heard = [crew.hear(advisory(revision=revision)) is not None for revision in range(4)]
+    heard = [crew.hear(advisory(revision=revision)).responds for revision in range(4)]
     assert len(set(heard)) == 1
 
 
@@ -334,6 +334,20 @@ def test_a_crew_is_unable_to_descend_to_the_ground_for_an_advisory(
 def test_a_crew_climbs_as_high_as_it_can_for_an_advisory(aircraft: Aircraft) -> None:
     crew_of(aircraft).hear(advisory(CLIMB.model_copy(update={"altitude_ft": 90_000}))).act()
     assert level_ft(aircraft) == pytest.approx(13_000)
+
+
+def test_who_descends_in_place_of_climbing_stays_above_the_ground(aircraft: Aircraft) -> None:
+    wrong = Channels(assistant=Responses(median_s=1.0, opposite=1.0))
+    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL123", pilot=Reactions())
+    centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
+    for ground_ft, level in ((0.0, 4_400.0), (4_200.0, 4_700.0)):
+        aircraft.en_route.hold_altitude(5_000 * FOOT)
+        crew = Crew(spec, aircraft, ScenarioSite(centre, ground_ft * FOOT), 1, wrong)
+        told = CLIMB.model_copy(update={"altitude_ft": 5_600})
+        reaction = crew.hear(advisory(told))
+        assert reaction.text == "follows altitude, in the opposite sense"
+        reaction.act()
+        assert level_ft(aircraft) == pytest.approx(level, abs=100.0)
 
 
 def test_the_ground_below_counts(aircraft: Aircraft) -> None:

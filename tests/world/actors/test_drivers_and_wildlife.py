@@ -88,7 +88,7 @@ def test_a_driver_takes_no_notice_of_what_is_not_for_drivers(driver: Driver) -> 
 def test_a_driver_who_never_complies_does_not(driver: Driver) -> None:
     never = load("s01b_nominal").actors[1].driver.model_copy(update={"compliance": 0.0})
     stubborn = cast_of("s01b_nominal", driver=never)["OPS1"]
-    assert stubborn.hear(advisory(HoldPosition(runway="01"))) is None
+    assert not stubborn.hear(advisory(HoldPosition(runway="01"))).responds
 
 
 def test_a_driver_says_what_it_cannot_do(driver: Driver) -> None:

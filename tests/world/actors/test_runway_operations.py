@@ -408,6 +408,21 @@ def test_who_leaves_an_approach_is_bound_for_no_runway(command: dict[str, Any]) 
     assert plane.names == ["land", "hold_track"]
 
 
+@pytest.mark.parametrize(
+    ("phase", "advice"),
+    [("lined_up", CancelTakeoff(runway="01")), ("standing", HoldPosition(runway="01"))],
+)
+def test_a_clearance_that_was_taken_before_a_warning_is_not_acted_upon_until_it_is_over(
+    phase: str, advice: Any
+) -> None:
+    crew = crew_of(Plane(phase, kdca().airport.hold("01", "A").place))
+    crew.hear(advisory(advice)).act()
+    with pytest.raises(Unable, match="holding because of a warning"):
+        tell(crew, "take_off", runway="01")
+    crew.hear(advisory(advice).model_copy(update={"active": False}))
+    assert crew.refusal(COMMAND.validate_python({"action": "continue"})) is None
+
+
 def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land() -> None:
     away = kdca().place(RunwayPosition(type="runway", runway="01", along_m=0.0, offset_m=-8000.0))
     plane = Plane("en_route", away, 500.0, 200.0, heading_deg=175.0)

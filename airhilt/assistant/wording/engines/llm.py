@@ -26,7 +26,8 @@ INSTRUCTIONS = (
     "the first hearing. You are given JSON with messages by key. Answer with JSON of the same "
     "keys: the severity unchanged, and the text in one short sentence. Keep every callsign, "
     "runway, number and action as it is written, in the same order. Begin with the callsign that "
-    "the message begins with. Add nothing, and leave out nothing."
+    "the message begins with, and put the action where the message has it: who is to act first "
+    "hears what to do, then why. Add nothing, and leave out nothing."
 )
 
 

@@ -19,12 +19,19 @@ from airhilt.engines import Engine
 from airhilt.messages import CONTROLLER, Climb, MaintainLevel, Recommendation, Turn
 
 OVER = "clear of conflict"
+STANDARD_RATE_FPM = 1500.0
+"""Vertical rate that is not said, in ft/min: the one that crews fly for a resolution advisory (ICAO
+Annex 10, volume IV, 4.4.2.6)."""
 SELF_CONTAINED = (RunwayMisread, NotReadBack, RecipientUnclear, Occupied)
 """Findings whose statement says of whom it is."""
 
 
 class Template:
-    """Puts the structure of an alert into fixed sentences."""
+    """Puts the structure of an alert into fixed sentences.
+
+    Who is to act is told first what to do, and then why, as TCAS does: nobody can act on an
+    instruction before it has been said.
+    """
 
     name = "template"
 
@@ -58,19 +65,31 @@ def _loss_of_separation(alert: Alert, loss: LossOfSeparation, recipient: str) ->
         return _with_advice(loss.statement(), alert)
     first, second = loss.callsigns
     other = second if recipient == first else first
-    recommended = alert.recommendations.get(recipient)
-    advice = "" if recommended is None else f", {_action(recommended)}"
     time_s = loss.time_to_loss_s or 0.0
-    return f"{recipient} traffic {other}, loss of separation in {time_s:.0f} s{advice}"
+    return _told(alert, recipient, f"traffic {other}, loss of separation in {time_s:.0f} s")
 
 
 def _intruder(alert: Alert, intruder: Intruder, recipient: str) -> str:
     if recipient == CONTROLLER:
         when = "" if intruder.contact_s is None else f", {intruder.contact_s:.0f} s"
         return _with_advice(f"{intruder.carrier}: {intruder.statement()}{when}", alert)
-    recommendation = alert.recommendations.get(recipient)
-    advice = _action(recommendation) if recommendation else "look out"
-    return f"{recipient} {intruder.statement()}, {advice}"
+    if recipient not in alert.recommendations:
+        return f"{recipient} look out. {_sentence(intruder.statement())}"
+    return _told(alert, recipient, intruder.statement())
+
+
+def _told(alert: Alert, recipient: str, why: str) -> str:
+    """Return what a recipient is to do, if anything, and why."""
+    recommended = alert.recommendations.get(recipient)
+    if recommended is None:
+        return f"{recipient} {why}"
+    return f"{recipient} {_action(recommended)}. {_sentence(why)}"
+
+
+def _sentence(words: str) -> str:
+    """Return words with a capital letter, unless they begin with an address, such as a1b2c3."""
+    first = words.split(" ", 1)[0]
+    return words[0].upper() + words[1:] if first.isalpha() else words
 
 
 def _with_advice(text: str, alert: Alert) -> str:
@@ -91,19 +110,19 @@ def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
         has_subject = isinstance(alert.finding, SELF_CONTAINED)
         user = "" if has_subject or not alert.traffic else f"{alert.traffic[0]}, "
         return "; ".join([f"{user}{statement}{when}", *actions])
-    recommended = alert.recommendations.get(recipient)
-    action = "" if recommended is None else f" {_action(recommended)},"
     told = statement.removeprefix(f"{recipient} ")
-    if told.startswith("is "):
-        told = told.replace("is ", "you are ", 1)
-    return f"{recipient}{action} {told}{when}"
+    for verb, yours in (("is ", "you are "), ("has ", "you have ")):
+        if told.startswith(verb):
+            told = yours + told.removeprefix(verb)
+    return _told(alert, recipient, f"{told}{when}")
 
 
 def _action(recommendation: Recommendation) -> str:
     match recommendation:
         case Climb(sense=sense, altitude_ft=altitude, vertical_rate_fpm=rate, turn_deg=degrees):
             turn = f"{_turn(degrees)} and " if degrees else ""
-            return f"{turn}{sense} to {altitude:.0f} ft at {rate:.0f} ft/min"
+            at = "" if rate == STANDARD_RATE_FPM else f" at {rate:.0f} ft/min"
+            return f"{turn}{sense} to {altitude:.0f} ft{at}"
         case MaintainLevel(altitude_ft=altitude):
             return f"maintain {altitude:.0f} ft"
         case Turn(degrees=degrees):

@@ -1,4 +1,4 @@
-"""All families, the assistants side by side, each modality alone and left out, the topologies."""
+"""All families: assistants, modalities alone and left out, topologies, response models."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from airhilt.sweep.specification import Specification
 MODALITIES = "modalities"
 VISION_ALONE = "vision_alone"
 TOPOLOGIES = "topologies"
+CREWS = "crews"
 WITH_VISION = {
     "asr+vision": "without ADS-B",
     "adsb+vision": "without ASR",
@@ -29,6 +30,8 @@ WITH_VISION = {
 WITHOUT_CAMERAS = {"asr": "ASR alone (without ADS-B)", "adsb": "ADS-B alone (without ASR)"}
 FUSION = ("asr_first", "gated_fusion")
 """Topologies besides that of the scenarios, which is ``parallel``."""
+BESIDE = ("ideal", "observed")
+"""Response models besides that of the scenarios, which is ``icao``."""
 EVERYTHING = "all"
 """Name of the rows over all families."""
 SCORES = ("warned", "in time", "missed", "avoided", "lead, s", "nuisance, 1/h")
@@ -55,6 +58,8 @@ def specifications(choice: Choice) -> Mapping[str, Specification]:
         found[VISION_ALONE] = choice.specification(with_cameras, reference, alone)
     if choice.has_speech:
         found[TOPOLOGIES] = choice.specification(names, reference, {"topology": FUSION})
+    if CREWS not in choice.options:
+        found[CREWS] = choice.specification(names, reference, {CREWS: BESIDE})
     return found
 
 
@@ -63,12 +68,14 @@ def _given(choice: Choice) -> Mapping[str, str]:
 
 
 def tables(results: Results) -> Sequence[Table]:
-    """Return the tables: families, harms, severities, modalities, topologies."""
+    """Return the tables: families, harms, severities, modalities, topologies, crews."""
     rows = results.rows
     baselines = Baselines.of(rows[NONE], rows["well_clear"])
     makers = [_families, _harms, _severities, _modalities]
     if TOPOLOGIES in rows:
         makers.append(_topologies)
+    if CREWS in rows:
+        makers.append(_crews)
     return tuple(make(results, baselines) for make in makers)
 
 
@@ -190,6 +197,17 @@ def _topologies(results: Results, baselines: Baselines) -> Table:
     return _compared("topologies", "Topologies", "topology", groups, results, baselines, notes)
 
 
+def _crews(results: Results, baselines: Baselines) -> Table:
+    rows = results.rows[CREWS]
+    groups = {"icao": results.rows[REFERENCE.name]}
+    groups |= {name: [row for row in rows if row[CREWS] == name] for name in BESIDE}
+    notes = [
+        f"Assistant: `{REFERENCE.name}`. Harm without an assistant is that of runs with `icao`: "
+        "nobody then has anything to respond to but equipment."
+    ]
+    return _compared(CREWS, "How people respond", "crews", groups, results, baselines, notes)
+
+
 def _compared(
     name: str,
     title: str,
@@ -241,7 +259,7 @@ def _margins(rows: Sequence[Row], baselines: Baselines) -> tuple[Cell, ...]:
 
 PRESET = Preset(
     name="full",
-    summary="all families and assistants, ablation of modalities, and topologies",
+    summary="all families and assistants, ablation of modalities, topologies and response models",
     seeds=3,
     specifications=specifications,
     tables=tables,

@@ -1,0 +1,52 @@
+"""An ordinary call is always obeyed; how an urgent one is, the response model says."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from airhilt.commands import TurnCommand
+from airhilt.scenario.models import Channels, ResponseModel, Responses
+from airhilt.sensors.radio.compliance import COMPLY_AFTER_S, Compliance
+from airhilt.sensors.radio.radio_call import RadioCall
+from conversations import World, radio_context
+
+AT_ONCE = Channels(assistant=Responses(median_s=1.0, sigma=0.0))
+NEVER = Channels(
+    assistant=Responses(median_s=1.0, sigma=0.0),
+    controller=Responses(median_s=3.0, sigma=0.0, no_response=1.0),
+)
+AFTER_3_S = Channels(
+    assistant=Responses(median_s=1.0, sigma=0.0), controller=Responses(median_s=3.0, sigma=0.0)
+)
+TURN = TurnCommand(action="turn", degrees=30.0)
+
+
+def done(crews: Channels, *, is_urgent: bool) -> list[tuple[Any, ...]]:
+    """Return what a crew does after a call that it has taken."""
+    world = World()
+    model = ResponseModel(crews=crews, drivers=AT_ONCE, controllers=AT_ONCE)
+    scenario = world.scenario.model_copy(update={"crews": model})
+    seats = SimpleNamespace(has_person=lambda _actor: False)
+    context = radio_context(
+        director=world.director, world=world, seats=seats, scenario=scenario, seed=1
+    )
+    call = RadioCall("c-1", 119_100, "TWR", "AAL123", "", is_urgent=is_urgent)
+    Compliance(context).comply(call, "AAL123", [TURN, TURN])
+    world.run()
+    return cast(list[tuple[Any, ...]], world.done)
+
+
+@pytest.mark.parametrize("crews", [AT_ONCE, NEVER, AFTER_3_S])
+def test_an_ordinary_call_is_obeyed_whatever_the_response_model(crews: Channels) -> None:
+    assert done(crews, is_urgent=False) == 2 * [("AAL123", TURN, COMPLY_AFTER_S)]
+
+
+def test_an_urgent_call_is_obeyed_after_the_time_of_the_response_model() -> None:
+    assert done(AFTER_3_S, is_urgent=True) == 2 * [("AAL123", TURN, 3.0)]
+
+
+def test_who_does_not_respond_to_an_urgent_call_is_told_of_once() -> None:
+    assert done(NEVER, is_urgent=True) == [("AAL123", "does not respond to turn (c-1)", 0.0)]
