@@ -137,6 +137,11 @@ class Advisory(Message):
     traffic: tuple[str, ...] = Field(description="callsigns (or icao24) of those in conflict")
     message: str
     recommendation: Recommendation | None = None
+    recommendations: dict[str, Recommendation] = Field(
+        default_factory=dict,
+        description="to the controller: what is recommended to each aircraft and vehicle, by "
+        "callsign",
+    )
     evidence: Evidence
     t_ready_ns: Nanoseconds = Field(description="arrival of the last input that it rests on")
 

@@ -139,6 +139,8 @@ EventKind = Literal[
     "unable",
     "failure",
     "pilot_reacts",
+    "controller_reacts",
+    "controller_silent",
     "worker_lost",
     "radio_lost",
     "cameras_lost",

@@ -19,6 +19,7 @@ from airhilt.assistant.wording.engine import AdvisoryWording, words
 from airhilt.errors import WorkerError
 from airhilt.messages import (
     ADVISORY_CALL,
+    CONTROLLER,
     AdsbReport,
     Advisory,
     Briefing,
@@ -30,6 +31,7 @@ from airhilt.messages import (
     ModelExchange,
     RadarInfo,
     RadarPlot,
+    Recommendation,
     Status,
     SurfaceTrack,
     TcasReply,
@@ -171,6 +173,13 @@ class DecisionWorker:
             traffic=alert.traffic,
             message=message,
             recommendation=alert.recommendations.get(recipient),
+            recommendations=_of_traffic(alert) if recipient == CONTROLLER else {},
             evidence=alert.evidence,
             t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
         )
+
+
+def _of_traffic(alert: Alert) -> dict[str, Recommendation]:
+    """Return what is recommended to aircraft and vehicles, which the controller may pass on."""
+    recommended = alert.recommendations.items()
+    return {callsign: each for callsign, each in recommended if callsign != CONTROLLER}

@@ -10,6 +10,7 @@ from airhilt.quantities import LONGEST_RUN_S, FileName, Name, Number
 from airhilt.scenario.models.actors import ActorSpec, AircraftSpec, WildlifeSpec
 from airhilt.scenario.models.base import Callsign, Identifier, Model
 from airhilt.scenario.models.conditions import Condition, Pair
+from airhilt.scenario.models.controllers import Controller
 from airhilt.scenario.models.failures import Failure
 from airhilt.scenario.models.radio import Radio
 from airhilt.scenario.models.scene import Daylight, Scene, Weather
@@ -96,6 +97,12 @@ class Scenario(Model):
     duration_s: Number = Field(gt=0.0, le=LONGEST_RUN_S, description="latest end of the run")
     actors: tuple[ActorSpec, ...] = Field(min_length=1, max_length=500)
     radio: Radio = Radio()
+    controllers: dict[Name, Controller] = Field(
+        default={},
+        max_length=100,
+        description="simulated controllers by the names of their units; the unit of "
+        "`radio.controller`, and every other unit of the script, has the default one",
+    )
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = Field(default=(), max_length=100)
     radars: tuple[Radar, ...] = Field(default=(), max_length=20)

@@ -35,16 +35,20 @@ class Confirmations:
         self._times: dict[str, int] = {}
 
     def take(self, advisory: Advisory) -> None:
-        """Let the recipient of an advisory confirm a call, if that is recommended."""
-        recommended, key = advisory.recommendation, (advisory.id, advisory.recipient)
-        if not isinstance(recommended, Confirm) or not advisory.active or key in self._asked:
+        """Let the crew or driver that an advisory asks to confirm a call do so."""
+        if isinstance(advisory.recommendation, Confirm) and advisory.active:
+            confirm = partial(self.confirm, advisory, advisory.recipient)
+            self._director.after(CONFIRM_AFTER_S, confirm)
+
+    def confirm(self, advisory: Advisory, name: str) -> None:
+        """Let an actor or a unit confirm the call that an advisory asks to confirm, once."""
+        recommended, key = advisory.recommendation, (advisory.id, name)
+        if not isinstance(recommended, Confirm) or key in self._asked:
             return
         call = self._call(advisory, recommended.callsign)
-        asked = None if call is None else self._asked_of(call, advisory.recipient)
-        if call is None or asked is None:
-            return
-        self._asked.add(key)
-        self._director.after(CONFIRM_AFTER_S, partial(self._confirm, call, asked))
+        if call is not None and name in (call.speaker, call.addressed):
+            self._asked.add(key)
+            self._confirm(call, name)
 
     def _confirm(self, call: RadioCall, asked: str) -> None:
         """Let whoever is asked speak, unless the call is about to be made again anyway."""
@@ -65,13 +69,6 @@ class Confirmations:
         of_callsign = [each for each in said.values() if callsign in (each.speaker, each.addressed)]
         calls = of_evidence or of_callsign
         return self._originals.get(calls[-1].id, calls[-1]) if calls else None
-
-    def _asked_of(self, call: RadioCall, recipient: str) -> str | None:
-        """Return which side of a call a recipient is: an actor itself, or the unit."""
-        if self._stations.is_actor(recipient):
-            return recipient
-        sides = (call.speaker, call.addressed)
-        return next((name for name in sides if name and not self._stations.is_actor(name)), None)
 
     def _again(self, call: RadioCall) -> RadioCall:
         """Return a call as it is said again, with its readback."""

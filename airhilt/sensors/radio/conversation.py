@@ -27,6 +27,7 @@ from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
 from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.controllers import Controllers
 from airhilt.sensors.radio.frequency_arbiter import GAP_S, FrequencyArbiter
 from airhilt.sensors.radio.hearing import HearingModel
 from airhilt.sensors.radio.listeners import Listeners
@@ -74,8 +75,11 @@ class RadioConversation:
         self._compliance = Compliance(context)
         policy = ReadbackPolicy(context, self._calls, self._speakers)
         hearing = hearing or HearingModel(context.seed)
-        self._listeners = Listeners(context, hearing, transmissions, self._compliance, policy)
         self._confirmations = Confirmations(context, self._speakers, policy)
+        self._controllers = Controllers(context, self._speakers, self._confirmations)
+        self._listeners = Listeners(
+            context, hearing, transmissions, self._compliance, policy, self._controllers.heard
+        )
         self._advisories: AdvisoryCalls | None = None
         if advisory_channel is not None:
             callsigns = context.scenario.callsigns
@@ -102,8 +106,9 @@ class RadioConversation:
                 if recognised is not None:
                     self._recognised(recognised)
                 self._listeners.take(message)
-            case Advisory():
+            case Advisory(recipient=recipient) if self._stations.is_actor(recipient):
                 self._confirmations.take(message)
+        self._controllers.take(key, message)
 
     def _act(self, speaker: str, act: SeatAct) -> None:
         """Take in what the person at a seat does."""
@@ -184,6 +189,7 @@ class RadioConversation:
             return
         if call.times_said == 1:
             self._compliance.carry_out(call, call.speaker)
+        self._controllers.ended(call)
         self._listeners.let_hear(call, on_air)
 
     def _recognised(self, recognised: RecognisedCall) -> None:

@@ -29,7 +29,8 @@ class Stations:
     ) -> None:
         self._actors = actors
         self._ground_m = site.ground_m
-        self._variation_deg = site.variation_deg or 0.0
+        self.variation_deg = site.variation_deg or 0.0
+        """Magnetic variation of the place, in degrees, positive east."""
         centre = site.centre
         self._site = FixedSite(
             centre.lat_deg * DEGREE,
@@ -49,7 +50,7 @@ class Stations:
 
     def listener(self, frequency_khz: int) -> Listener:
         """Return who understands the calls on a frequency, with the callsigns there."""
-        return Listener(self.actors_on(frequency_khz), variation_deg=self._variation_deg)
+        return Listener(self.actors_on(frequency_khz), variation_deg=self.variation_deg)
 
     def actors_on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the callsigns of the actors on a frequency."""

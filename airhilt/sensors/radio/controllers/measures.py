@@ -1,0 +1,212 @@
+"""What a controller does about an advisory: an action for each whom it concerns.
+
+An advisory that recommends actions decides it. Without recommendations the controller judges by
+its strips and displays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+from airhilt.geodesy.relative_motion import Minima, VerticalProfile, relative, time_to_loss_s
+from airhilt.messages import (
+    CONTROLLER,
+    Advisory,
+    CancelTakeoff,
+    Climb,
+    GoAround,
+    HoldPosition,
+    MaintainLevel,
+    Recommendation,
+    Severity,
+)
+from airhilt.phraseology import Action
+from airhilt.sensors.radio.controllers.displays import Displays, Target
+from airhilt.sensors.radio.controllers.strips import DEPARTING, LANDING, Strips
+from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
+
+ROLLING_M_S = 30.0 * KNOT
+"""Ground speed in m/s from which somebody on a runway is not taxiing: an assumption."""
+LEVEL_FT = 1000.0
+"""Distance of cruising levels (ICAO Annex 2, appendix 3), in ft."""
+USUAL_RATE_FPM = 1500.0
+"""Vertical rate that a recommendation of the controller's own stands for, in ft/min; nothing of it
+is said."""
+LEAST_HEIGHT_M = 2000.0 * FOOT
+"""Height above the airport below which a controller gives no descent, in m: an assumption."""
+LOOK_AHEAD_S = 120.0
+"""Time for which a controller judges by displays whether two come near each other, in s."""
+NEAR_ON_GROUND_M = 0.5 * NAUTICAL_MILE
+"""Distance in m within which two on an airport are near each other: an assumption."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """An action for one actor."""
+
+    callsign: str
+    action: Recommendation
+    traffic: Target | None = None
+    """What it is to be told of, if that is displayed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Repetition:
+    """An instruction that is said again to one actor, because it was not read back as given."""
+
+    callsign: str
+    call: RadioCall
+
+
+class Judgement:
+    """Decides on measures, from an advisory, the strips and the displays."""
+
+    def __init__(self, displays: Displays, strips: Strips, said: Mapping[str, RadioCall]) -> None:
+        self._displays = displays
+        self._strips = strips
+        self._said = said
+
+    def measures(self, advisory: Advisory, now_ns: int) -> tuple[Measure | Repetition, ...]:
+        """Return what is to be done about an advisory, the most important first."""
+        repetitions = tuple(self._repetitions(advisory))
+        actions = dict(advisory.recommendations)
+        if advisory.recommendation is not None:
+            actions.pop(CONTROLLER, None)
+        if not actions and not repetitions:
+            actions = dict(self._own(advisory, now_ns))
+        return (
+            *repetitions,
+            *(
+                Measure(callsign, action, self._other(advisory, callsign, now_ns))
+                for callsign, action in actions.items()
+            ),
+        )
+
+    def is_contradicted(self, advisory: Advisory, now_ns: int) -> bool:
+        """Return whether the displays show all of the traffic, and no two of it coming near.
+
+        What was read back is no matter of displays.
+        """
+        targets = [self._displays.target(callsign, now_ns) for callsign in advisory.traffic]
+        shown = [target for target in targets if target is not None]
+        if advisory.kind not in ("loss_of_separation", "runway_conflict"):
+            return False
+        if len(shown) < max(2, len(targets)):
+            return False
+        return not any(self._come_near(one, other) for one, other in combinations(shown, 2))
+
+    def _come_near(self, one: Target, other: Target) -> bool:
+        motion = relative(one, other)
+        if one.on_ground or other.on_ground:
+            within = motion.interval_within(NEAR_ON_GROUND_M)
+            return within is not None and within[1] >= 0.0 and within[0] <= LOOK_AHEAD_S
+        minima = Minima(self._displays.horizontal_minimum_m, self._displays.vertical_minimum_m)
+        profiles = [VerticalProfile(each.altitude_m, each.vertical_m_s) for each in (one, other)]
+        loss_s = time_to_loss_s(motion, *profiles, minima)
+        return loss_s is not None and loss_s <= LOOK_AHEAD_S
+
+    # --- what was read back wrongly ---------------------------------------------------------
+
+    def _repetitions(self, advisory: Advisory) -> Iterator[Repetition]:
+        """Yield the instruction that was read back wrongly, or by nobody, or by somebody else."""
+        if advisory.kind != "readback_mismatch":
+            return
+        calls = [self._said[name] for name in advisory.evidence.radio_ids if name in self._said]
+        named = {call.addressed for call in calls} | {call.speaker for call in calls}
+        for callsign in advisory.traffic:
+            given = self._strips.of(callsign).instructions
+            if callsign in named and given:
+                told = next((call for call in reversed(given) if call in calls), given[-1])
+                yield Repetition(callsign, told)
+                return
+
+    # --- judged by the controller itself ----------------------------------------------------
+
+    def _own(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+        match advisory.kind:
+            case "runway_conflict":
+                yield from self._on_runway(advisory, now_ns)
+            case "loss_of_separation":
+                yield from self._in_flight(advisory, now_ns)
+            case _:
+                return
+
+    def _on_runway(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+        """Yield the actions of those who use a runway, or are about to.
+
+        Who departs is stopped, and who taxies or drives towards it holds; who is on it goes on. An
+        arrival goes around once it is urgent, unless all others can be held short.
+        """
+        is_urgent = advisory.severity.rank >= Severity.WARNING.rank
+        held = 0
+        arrivals: list[tuple[str, str]] = []
+        for callsign in advisory.traffic:
+            target = self._displays.target(callsign, now_ns)
+            strip = self._strips.of(callsign)
+            runway = strip.runway or advisory.evidence.runway or ""
+            final = None if target is None else self._displays.final_of(target)
+            if final is not None or _is_arrival(target, strip.runway_use):
+                arrivals.append((callsign, final or runway))
+            elif _is_departure(target, strip.runway_use):
+                yield callsign, CancelTakeoff(runway=runway)
+                held += 1
+            elif (
+                target is not None and target.on_ground and not self._displays.is_on_runway(target)
+            ):
+                yield callsign, HoldPosition(runway=runway)
+                held += 1
+        is_free = held > 0 and held + len(arrivals) == len(advisory.traffic)
+        if is_urgent and not (is_free and len(arrivals) < 2):
+            for callsign, runway in arrivals[-1:] if is_free else arrivals:
+                yield callsign, GoAround(runway=runway)
+
+    def _in_flight(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+        """Yield a climb of the higher of two and a descent of the lower, to free levels."""
+        targets = [self._displays.target(callsign, now_ns) for callsign in advisory.traffic]
+        shown = [target for target in targets if target is not None and not target.on_ground]
+        if len(shown) < 2:
+            return
+        lower, higher = sorted(shown[:2], key=lambda each: (each.altitude_m, each.callsign))
+        up_ft = _next_level_ft(max(lower.altitude_m, higher.altitude_m) / FOOT, up=True)
+        down_ft = _next_level_ft(min(lower.altitude_m, higher.altitude_m) / FOOT, up=False)
+        if up_ft <= self._displays.ceiling_ft(higher.callsign):
+            yield (
+                higher.callsign,
+                Climb(sense="climb", altitude_ft=up_ft, vertical_rate_fpm=USUAL_RATE_FPM),
+            )
+        if self._displays.height_m(lower) - LEVEL_FT * FOOT >= LEAST_HEIGHT_M:
+            yield (
+                lower.callsign,
+                Climb(sense="descend", altitude_ft=down_ft, vertical_rate_fpm=USUAL_RATE_FPM),
+            )
+        else:
+            level_ft = round(lower.altitude_m / FOOT / 100.0) * 100.0
+            yield lower.callsign, MaintainLevel(altitude_ft=level_ft)
+
+    def _other(self, advisory: Advisory, callsign: str, now_ns: int) -> Target | None:
+        """Return the traffic of one party of an advisory as it is displayed."""
+        others = [name for name in advisory.traffic if name != callsign]
+        return self._displays.target(others[0], now_ns) if others else None
+
+
+def _is_arrival(target: Target | None, use: Action | None) -> bool:
+    return use in LANDING and (target is None or not target.on_ground)
+
+
+def _is_departure(target: Target | None, use: Action | None) -> bool:
+    """Return whether somebody departs by its clearance, or rolls and has none to land."""
+    if target is not None and not target.on_ground:
+        return False
+    is_rolling = target is not None and target.speed_m_s >= ROLLING_M_S
+    return use in DEPARTING or (is_rolling and use not in LANDING)
+
+
+def _next_level_ft(altitude_ft: float, *, up: bool) -> float:
+    """Return the first cruising level at least one level above or below an altitude."""
+    if up:
+        return math.ceil((altitude_ft - 100.0) / LEVEL_FT) * LEVEL_FT + LEVEL_FT
+    return math.floor((altitude_ft + 100.0) / LEVEL_FT) * LEVEL_FT - LEVEL_FT
