@@ -113,6 +113,8 @@ AdvisoryKind = Literal[
 """Kind of conflict, or ``clarification`` of a call that was heard with too little confidence."""
 CONTROLLER = "ATC"
 """Recipient of the advisories to the controller."""
+Told = Literal["crew", "controller", "both"]
+"""Who is told of conflicts: the crews and drivers concerned, the controller, or both."""
 
 
 class Advisory(Message):

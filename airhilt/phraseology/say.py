@@ -104,13 +104,15 @@ def speak_traffic_alert(
 ) -> str:
     """Return an alert of traffic, with what to do at once; ``traffic`` is of `speak_traffic`.
 
-    FAA: Order JO 7110.65, 2-1-6 b, without "advise you": it is an instruction. ICAO: Doc 4444,
+    With an immediate instruction it says "immediately". FAA: Order JO 7110.65, 2-1-6 b, without
+    "advise you": it is an instruction. ICAO: Doc 4444,
     12.4.1.8.
     """
     who = speak_callsign(callsign, style)
-    parts = [phrase_of(replace(each, immediate=False), style, readback=False)
-             for each in instructions]  # fmt: skip
-    action = f"{' and '.join(parts)} immediately"
+    calm = [replace(each, immediate=False) for each in instructions]
+    action = " and ".join(phrase_of(each, style, readback=False) for each in calm)
+    if any(each.immediate for each in instructions):
+        action = f"{action} immediately"
     if style == "faa":
         return _sentence("traffic alert", who, *([traffic] if traffic else []), action)
     return _sentence(who, action, f"to avoid {traffic}" if traffic else "traffic alert")

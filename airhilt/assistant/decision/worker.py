@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from pydantic import TypeAdapter
@@ -35,6 +36,7 @@ from airhilt.messages import (
     Status,
     SurfaceTrack,
     TcasReply,
+    Told,
     Transcript,
     Transmission,
     WorkerDescription,
@@ -64,6 +66,8 @@ class DecisionWorker:
 
     Parameters
     ----------
+    told
+        Who is told of conflicts; None: whom the engine tells.
     is_gated
         True to tell nothing while a transcript is to come: the topology ``gated_fusion``.
 
@@ -78,6 +82,7 @@ class DecisionWorker:
         engine: DecisionEngine,
         wording: AdvisoryWording,
         *,
+        told: Told | None = None,
         is_gated: bool = False,
         name: str = "decision",
     ) -> None:
@@ -90,6 +95,7 @@ class DecisionWorker:
         self._name = name
         self._engine = engine
         self._wording = wording
+        self._told = told
         self._gate = FusionGate() if is_gated else None
         read: dict[str, Any] = {key: model for model, key in KEYS.items() if model in engine.reads}
         if isinstance(engine, NamesInputs):
@@ -125,10 +131,11 @@ class DecisionWorker:
                 return Step((), wake_ns=opens_ns)
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
         decision = self._engine.decide(t_ns)
-        worded = words(self._wording, decision.alerts)
+        alerts = [self._addressed(alert) for alert in decision.alerts]
+        worded = words(self._wording, alerts)
         advisories = (
             self._advisory(alert, recipient, worded.messages[alert.id, recipient], t_ready_ns)
-            for alert in decision.alerts
+            for alert in alerts
             for recipient in alert.recipients
         )
         told = [
@@ -160,6 +167,21 @@ class DecisionWorker:
             ids = tuple(f"{self._name}-{each}" for each in exchange.advisories)
             named = exchange.model_copy(update={"advisories": ids})
             yield Output(f"llm/{self._name}", named.model_dump_json().encode())
+
+    def _addressed(self, alert: Alert) -> Alert:
+        """Return an alert to those who are told of conflicts; they may be none."""
+        crews = tuple(each for each in alert.recipients if each != CONTROLLER)
+        match self._told:
+            case None:
+                return alert
+            case "crew":
+                recipients = crews
+            case "controller":
+                recipients = (CONTROLLER,)
+            case "both":
+                recipients = (*crews, CONTROLLER)
+        messages = {each: text for each, text in alert.messages.items() if each in recipients}
+        return replace(alert, recipients=recipients, messages=messages)
 
     def _advisory(self, alert: Alert, recipient: str, message: str, t_ready_ns: int) -> Advisory:
         return Advisory(

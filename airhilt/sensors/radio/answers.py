@@ -34,16 +34,16 @@ class Answers:
             return f"{speak_callsign(asked, self._style)}, say again."
         return "Say again."
 
-    def negative(self, callsign: str, unit: str, said: str) -> str:
-        """Return the correction of a wrong readback: what a unit said, once more.
+    def again(self, callsign: str, unit: str, said: str, *, is_correction: bool) -> str:
+        """Return what a unit said, once more: it was not read back, or otherwise.
 
         "Negative" and "I say again" are those of ICAO Annex 10 volume II, 5.2.1.5.8.
         """
         clauses = said.split(", ")
         while len(clauses) > 1 and _only_addresses(clauses[0], callsign, unit):
             clauses.pop(0)
-        who, again = speak_callsign(callsign, self._style), ", ".join(clauses)
-        return f"{who}, negative, I say again, {again}"
+        begin = "negative, I say again" if is_correction else "I say again"
+        return f"{speak_callsign(callsign, self._style)}, {begin}, {', '.join(clauses)}"
 
 
 def _only_addresses(clause: str, callsign: str, unit: str) -> bool:

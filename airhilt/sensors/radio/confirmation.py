@@ -37,30 +37,34 @@ class Confirmations:
     def take(self, advisory: Advisory) -> None:
         """Let the crew or driver that an advisory asks to confirm a call do so."""
         if isinstance(advisory.recommendation, Confirm) and advisory.active:
-            confirm = partial(self.confirm, advisory, advisory.recipient)
-            self._director.after(CONFIRM_AFTER_S, confirm)
+            self._director.after(CONFIRM_AFTER_S, partial(self._confirm, advisory))
 
-    def confirm(self, advisory: Advisory, name: str) -> None:
-        """Let an actor or a unit confirm the call that an advisory asks to confirm, once."""
+    def _confirm(self, advisory: Advisory) -> None:
+        call = self.confirmation(advisory, advisory.recipient)
+        if call is not None:
+            self._speakers.say(call)
+
+    def confirmation(self, advisory: Advisory, name: str) -> RadioCall | None:
+        """Return what an actor or a unit says to confirm the call that an advisory asks to confirm.
+
+        None if it has done so, or has no part in the call, or the call is made again anyway.
+        """
         recommended, key = advisory.recommendation, (advisory.id, name)
         if not isinstance(recommended, Confirm) or key in self._asked:
-            return
+            return None
         call = self._call(advisory, recommended.callsign)
-        if call is not None and name in (call.speaker, call.addressed):
-            self._asked.add(key)
-            self._confirm(call, name)
-
-    def _confirm(self, call: RadioCall, asked: str) -> None:
-        """Let whoever is asked speak, unless the call is about to be made again anyway."""
+        if call is None or name not in (call.speaker, call.addressed):
+            return None
+        self._asked.add(key)
         if call.is_due_again:
-            return
+            return None
         has_taken = call.addressed is None or call.addressed in call.taken_by
-        if asked != call.speaker:
-            self._speakers.say(self._question(call, asked, self._again(call)))
-        elif has_taken:
-            self._speakers.say(self._again(call))
-        else:
-            self._policy.call_again(call)
+        if name != call.speaker:
+            return self._question(call, name, self._again(call))
+        if has_taken:
+            return self._again(call)
+        self._policy.call_again(call)
+        return None
 
     def _call(self, advisory: Advisory, callsign: str) -> RadioCall | None:
         """Return the call in doubt: that of the evidence, or else the last of the callsign."""

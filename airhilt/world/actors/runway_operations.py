@@ -116,6 +116,8 @@ class RunwayOperations:
         match command:
             case TaxiCommand():
                 self._taxi(command)
+            case HoldPositionCommand() if self._aircraft.phase == "takeoff_roll":
+                self.cancel_takeoff()
             case HoldPositionCommand() | HoldShortCommand():
                 self._aircraft.procedures.hold_position()
                 self._next = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Literal, NamedTuple
 
 from airhilt.messages import (
     CONTROLLER,
@@ -20,7 +21,7 @@ from airhilt.messages import (
 )
 from airhilt.phraseology import Instruction
 from airhilt.scenario.conversation import needed_lines
-from airhilt.scenario.models import Controller, ScriptedCommand
+from airhilt.scenario.models import Alerting, Controller, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
 from airhilt.sensors.radio.confirmation import Confirmations
@@ -31,9 +32,13 @@ from airhilt.sensors.radio.controllers.strips import Strips
 from airhilt.sensors.radio.controllers.wording import Wording
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sim.streams import stream
+from airhilt.units import SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 
-CONFLICT_ALERT = "conflict_alert"
+ANSWERS_WITHIN_S = 5.0
+"""Time in s in which a controller expects the answer to a call: an assumption."""
+ACTS_WITHIN_S = 10.0
+"""Time in s that a controller gives somebody to do what it was told: an assumption."""
 
 
 @dataclass(slots=True)
@@ -43,8 +48,8 @@ class Position:
     unit: str
     controller: Controller
     reactions: ReactionModel
-    attended: dict[str, Advisory] = field(default_factory=dict)
-    """Advisories to which the controller has turned, and which are not over, by id."""
+    attended: set[str] = field(default_factory=set)
+    """Ids of the advisories that the controller has seen and acts on."""
     answered: set[tuple[str, str, tuple[Instruction, ...]]] = field(default_factory=set)
     """What was said: id of the advisory, callsign and instructions."""
     told: set[tuple[str, str]] = field(default_factory=set)
@@ -52,6 +57,13 @@ class Position:
     speaking: RadioCall | None = None
     """Call on the air, or waiting for the frequency."""
     calls: int = 0
+
+
+class Alert(NamedTuple):
+    """What a controller is shown of a conflict."""
+
+    kind: Alerting
+    advisory: Advisory
 
 
 class Controllers:
@@ -75,16 +87,16 @@ class Controllers:
         self._confirmations = confirmations
         self._answers = Answers(context)
         self._displays = Displays()
-        self._strips = Strips(context.stations)
+        self._strips = Strips(context.stations, context.director)
         self._judgement = Judgement(self._displays, self._strips, speakers.said)
-        radio = context.radio
-        self._wording = Wording(self._displays, radio.phraseology, context.stations.variation_deg)
+        style, variation_deg = context.radio.phraseology, context.stations.variation_deg
+        self._wording = Wording(self._displays, self._strips, style, variation_deg)
         self._positions = {
             unit: Position(unit, each, ReactionModel(unit, each, context.seed))
             for unit, each in controllers_of(context).items()
         }
         self._answered = needed_lines(context.scenario)
-        self._latest: dict[str, Advisory] = {}
+        self._shown: dict[str, Alert] = {}
         """The last revision of each advisory to the controller that is not over, by id."""
 
     # --- what controllers perceive ----------------------------------------------------------
@@ -95,9 +107,9 @@ class Controllers:
             case Advisory(recipient=recipient) if recipient == CONTROLLER:
                 self._advised(message, message.kind)
             case EquipmentAlert(equipment=equipment, advisory=advisory) if (
-                advisory.recipient == CONTROLLER and equipment == CONFLICT_ALERT
+                advisory.recipient == CONTROLLER and equipment == "conflict_alert"
             ):
-                self._advised(advisory, CONFLICT_ALERT)
+                self._advised(advisory, "conflict_alert")
             case SeatAction(act=LeaveSeat()):
                 self._person_left(key.split("/")[1])
             case _:
@@ -120,44 +132,51 @@ class Controllers:
 
     # --- reacting ---------------------------------------------------------------------------
 
-    def _advised(self, advisory: Advisory, kind: str) -> None:
-        """Let the controllers turn to an advisory, each after its reaction time."""
+    def _advised(self, advisory: Advisory, kind: Alerting) -> None:
+        """Show an advisory to the controllers, who turn to it after their reaction times."""
         if not advisory.active:
-            self._latest.pop(advisory.id, None)
-            for position in self._positions.values():
-                position.attended.pop(advisory.id, None)
+            self._shown.pop(advisory.id, None)
             return
         asks = isinstance(advisory.recommendation, Confirm)
-        if not asks and advisory.severity.rank < FOLLOWED_FROM.rank:
-            return
-        self._latest[advisory.id] = advisory
-        for position in self._positions.values():
-            if kind in position.controller.acts_on:
-                self._react(position, advisory)
+        if asks or advisory.severity.rank >= FOLLOWED_FROM.rank:
+            self._shown[advisory.id] = alert = Alert(kind, advisory)
+            for position in self._positions.values():
+                self._react(position, alert)
 
-    def _react(self, position: Position, advisory: Advisory) -> None:
-        if not any(self._works(position, callsign) for callsign in advisory.traffic):
+    def _react(self, position: Position, alert: Alert) -> None:
+        advisory = alert.advisory
+        if not self._concerns(position, alert):
             return
         if not position.reactions.complies(advisory.id):
-            self._silent(position, advisory, "does not respond to it")
+            self._silent(position, advisory, "does not respond")
             return
         again = advisory.id in position.attended
         delay_s = position.reactions.delay_s(advisory, again)
-        self._director.after(delay_s, partial(self._attend, position, advisory.id))
+        self._director.after(delay_s, partial(self._look, position, advisory.id))
 
-    def _attend(self, position: Position, identity: str) -> None:
-        """Turn to an advisory as it is now, unless it is over."""
-        advisory = self._latest.get(identity)
-        if advisory is None or self._seats.has_person(position.unit):
+    def _look(self, position: Position, identity: str) -> None:
+        """Look at all that is shown, because of one advisory, unless that is over."""
+        if identity not in self._shown or self._seats.has_person(position.unit):
             return
-        now_ns = self._director.now_ns
-        if self._judgement.is_contradicted(advisory, now_ns) and self._ignores(position, identity):
-            self._silent(position, advisory, "its displays contradict it")
-            return
-        position.attended[identity] = advisory
-        if isinstance(advisory.recommendation, Confirm):
-            self._confirmations.confirm(advisory, position.unit)
+        for alert in self._shown.values():
+            if self._concerns(position, alert) and self._heeds(position, alert.advisory):
+                position.attended.add(alert.advisory.id)
         self._speak(position)
+
+    def _concerns(self, position: Position, alert: Alert) -> bool:
+        return alert.kind in position.controller.acts_on and any(
+            self._works(position, callsign) for callsign in alert.advisory.traffic
+        )
+
+    def _heeds(self, position: Position, advisory: Advisory) -> bool:
+        """Return whether a controller acts on an advisory that it has seen."""
+        if not position.reactions.complies(advisory.id):
+            return False
+        is_contradicted = self._judgement.is_contradicted(advisory, self._director.now_ns)
+        if is_contradicted and self._ignores(position, advisory.id):
+            self._silent(position, advisory, "the displays contradict it")
+            return False
+        return True
 
     def _ignores(self, position: Position, identity: str) -> bool:
         draw = stream(self._context.seed, f"contradicted/{position.unit}/{identity}").random()
@@ -174,8 +193,8 @@ class Controllers:
         """Let a controller turn to the advisories in force when its person has left."""
         for position in self._positions.values():
             if key_chunk(position.unit) == seat:
-                for advisory in list(self._latest.values()):
-                    self._react(position, advisory)
+                for alert in list(self._shown.values()):
+                    self._react(position, alert)
 
     # --- speaking ---------------------------------------------------------------------------
 
@@ -183,13 +202,28 @@ class Controllers:
         """Make the most urgent call that is still to be made, if the controller is not speaking."""
         if position.speaking is not None or self._seats.has_person(position.unit):
             return
-        for advisory in sorted(position.attended.values(), key=_urgency):
-            for measure in self._judgement.measures(advisory, self._director.now_ns):
-                call = self._call(position, advisory, measure)
+        shown = [each.advisory for each in self._shown.values()]
+        for advisory in sorted(shown, key=_urgency):
+            call = None
+            if advisory.id in position.attended:
+                call = next(self._calls(position, advisory), None)
+            if call is not None:
+                position.speaking = call
+                self._speakers.say(call)
+                return
+
+    def _calls(self, position: Position, advisory: Advisory) -> Iterator[RadioCall]:
+        """Yield the calls that are still to be made because of an advisory."""
+        if isinstance(advisory.recommendation, Confirm):
+            if not self._is_settled(advisory, advisory.recommendation.callsign):
+                call = self._confirmations.confirmation(advisory, position.unit)
                 if call is not None:
-                    position.speaking = call
-                    self._speakers.say(call)
-                    return
+                    yield call
+            return
+        for measure in self._judgement.measures(advisory, self._director.now_ns):
+            call = self._call(position, advisory, measure)
+            if call is not None:
+                yield call
 
     def _call(
         self, position: Position, advisory: Advisory, measure: Measure | Repetition
@@ -209,7 +243,12 @@ class Controllers:
         listener = self._stations.listener(contact.frequency_khz)
         if isinstance(measure, Repetition):
             instructions = listener.parse(measure.call.said).instructions
-            text = self._answers.negative(callsign, position.unit, measure.call.said)
+            text = self._answers.again(
+                callsign,
+                position.unit,
+                measure.call.said,
+                is_correction=measure.is_correction,
+            )
         else:
             now_ns = self._director.now_ns
             instructions = self._wording.instructions(measure, now_ns)
@@ -217,7 +256,13 @@ class Controllers:
         said = (advisory.id, callsign, instructions)
         if not instructions or said in position.answered:
             return None
+        told = self._is_told(callsign, measure, instructions)
+        if told == "perhaps":
+            self._director.after(ANSWERS_WITHIN_S, partial(self._speak, position))
+            return None
         position.answered.add(said)
+        if told == "yes":
+            return None
         position.calls += 1
         call = RadioCall(
             f"controller.{key_chunk(position.unit)}.{position.calls}",
@@ -231,6 +276,43 @@ class Controllers:
         self._event("controller_reacts", position.unit, f"{callsign}: {_named(instructions)} "
                     f"({advisory.id})")  # fmt: skip
         return call
+
+    def _is_settled(self, advisory: Advisory, callsign: str) -> bool:
+        """Return whether there is no need to confirm a call, or something is more urgent.
+
+        There is none if the controller has heard it read back as it was, or has given other
+        instructions since.
+        """
+        if any(each.advisory.severity.rank >= FOLLOWED_FROM.rank for each in self._shown.values()):
+            return True
+        strip, said = self._strips.of(callsign), self._speakers.said
+        calls = [said[name] for name in advisory.evidence.radio_ids if name in said]
+        given = [call for call in calls if call in strip.instructions]
+        answered = [call.in_reply_to for call in calls if call.in_reply_to is not None]
+        if any(call.id in strip.read_back for call in (*given, *answered)):
+            return True
+        return bool(given) and strip.instructions[-1] not in given
+
+    def _is_told(
+        self, callsign: str, measure: Measure | Repetition, instructions: tuple[Instruction, ...]
+    ) -> Literal["yes", "perhaps", "no"]:
+        """Return whether somebody was told the same a moment ago, or what replaces a repetition.
+
+        Who was told and has not answered yet has perhaps heard it.
+        """
+        strip = self._strips.of(callsign)
+        since_s = (self._director.now_ns - strip.told_ns) / SECOND_NS
+        if not strip.instructions or since_s > ACTS_WITHIN_S:
+            return "no"
+        last = strip.instructions[-1]
+        if isinstance(measure, Repetition):
+            return "no" if last is measure.call else "yes"
+        meant = self._stations.listener(last.frequency_khz).parse(last.said).instructions
+        if not {each.action for each in instructions} <= {each.action for each in meant}:
+            return "no"
+        if last.id in strip.read_back:
+            return "yes"
+        return "perhaps" if since_s < ANSWERS_WITHIN_S else "no"
 
     def _commands(
         self,

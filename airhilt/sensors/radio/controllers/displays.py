@@ -71,7 +71,7 @@ class Displays:
     def __init__(self) -> None:
         self._targets: dict[str, Target] = {}
         self._runways: dict[str, RunwayBriefing] = {}
-        self._areas: list[Polygon] = []
+        self._areas: dict[str, Polygon] = {}
         self._elevation_m = 0.0
         self._ceilings_ft: dict[str, float] = {}
         self.vehicles: frozenset[str] = frozenset()
@@ -116,7 +116,7 @@ class Displays:
         if airport is not None:
             self._elevation_m = airport.elevation_ft * FOOT
             self._runways = {each.ident: each for each in airport.runways}
-            self._areas = [Polygon(each.protected_area) for each in airport.runways]
+            self._areas = {each.ident: Polygon(each.protected_area) for each in airport.runways}
 
     def _show(
         self,
@@ -157,10 +157,17 @@ class Displays:
         """Return the height of a target above the airport."""
         return target.altitude_m - self._elevation_m
 
-    def is_on_runway(self, target: Target) -> bool:
-        """Return whether a target on the ground is in the area that hold-short positions guard."""
+    def runway_of(self, target: Target) -> str | None:
+        """Return the runway whose area, guarded by hold-short positions, a target is in."""
+        if not target.on_ground:
+            return None
         here = Point(target.latitude_rad / DEGREE, target.longitude_rad / DEGREE)
-        return target.on_ground and any(area.contains(here) for area in self._areas)
+        return next((ident for ident, area in self._areas.items() if area.contains(here)), None)
+
+    def are_one_runway(self, one: str | None, other: str) -> bool:
+        """Return whether two directions are those of one runway."""
+        areas = self._areas.get(one or ""), self._areas.get(other)
+        return one == other or (areas[0] is not None and areas[0] == areas[1])
 
     def final_of(self, target: Target) -> str | None:
         """Return the runway that a target in flight is on final approach to, None if to none."""

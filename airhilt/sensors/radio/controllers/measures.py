@@ -13,7 +13,6 @@ from itertools import combinations
 
 from airhilt.geodesy.relative_motion import Minima, VerticalProfile, relative, time_to_loss_s
 from airhilt.messages import (
-    CONTROLLER,
     Advisory,
     CancelTakeoff,
     Climb,
@@ -25,7 +24,7 @@ from airhilt.messages import (
 )
 from airhilt.phraseology import Action
 from airhilt.sensors.radio.controllers.displays import Displays, Target
-from airhilt.sensors.radio.controllers.strips import DEPARTING, LANDING, Strips
+from airhilt.sensors.radio.controllers.strips import DEPARTING, ENTERING, LANDING, Strips
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 
@@ -60,6 +59,8 @@ class Repetition:
 
     callsign: str
     call: RadioCall
+    is_correction: bool
+    """True if it was read back otherwise; False if it was not read back."""
 
 
 class Judgement:
@@ -72,14 +73,10 @@ class Judgement:
 
     def measures(self, advisory: Advisory, now_ns: int) -> tuple[Measure | Repetition, ...]:
         """Return what is to be done about an advisory, the most important first."""
-        repetitions = tuple(self._repetitions(advisory))
-        actions = dict(advisory.recommendations)
-        if advisory.recommendation is not None:
-            actions.pop(CONTROLLER, None)
-        if not actions and not repetitions:
-            actions = dict(self._own(advisory, now_ns))
+        actions = dict(self._recommended(advisory, now_ns)) or dict(self._own(advisory, now_ns))
+        repetitions = self._repetitions(advisory)
         return (
-            *repetitions,
+            *(each for each in repetitions if each.callsign not in actions),
             *(
                 Measure(callsign, action, self._other(advisory, callsign, now_ns))
                 for callsign, action in actions.items()
@@ -109,6 +106,21 @@ class Judgement:
         loss_s = time_to_loss_s(motion, *profiles, minima)
         return loss_s is not None and loss_s <= LOOK_AHEAD_S
 
+    def _recommended(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+        """Yield what an advisory recommends, without a halt of somebody in the way.
+
+        Who is on the runway already is to leave it, not to stop there, once the user of the runway
+        is told to keep off.
+        """
+        keep_off = any(
+            isinstance(each, GoAround | CancelTakeoff) for each in advisory.recommendations.values()
+        )
+        for callsign, action in advisory.recommendations.items():
+            target = self._displays.target(callsign, now_ns)
+            is_on = target is not None and self._displays.runway_of(target) is not None
+            if not (isinstance(action, HoldPosition) and is_on and keep_off):
+                yield callsign, action
+
     # --- what was read back wrongly ---------------------------------------------------------
 
     def _repetitions(self, advisory: Advisory) -> Iterator[Repetition]:
@@ -116,12 +128,12 @@ class Judgement:
         if advisory.kind != "readback_mismatch":
             return
         calls = [self._said[name] for name in advisory.evidence.radio_ids if name in self._said]
-        named = {call.addressed for call in calls} | {call.speaker for call in calls}
         for callsign in advisory.traffic:
             given = self._strips.of(callsign).instructions
-            if callsign in named and given:
+            spoke = any(call.speaker == callsign for call in calls)
+            if given and (spoke or any(call.addressed == callsign for call in calls)):
                 told = next((call for call in reversed(given) if call in calls), given[-1])
-                yield Repetition(callsign, told)
+                yield Repetition(callsign, told, is_correction=spoke)
                 return
 
     # --- judged by the controller itself ----------------------------------------------------
@@ -138,11 +150,12 @@ class Judgement:
     def _on_runway(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
         """Yield the actions of those who use a runway, or are about to.
 
-        Who departs is stopped, and who taxies or drives towards it holds; who is on it goes on. An
-        arrival goes around once it is urgent, unless all others can be held short.
+        Who departs is stopped. Who taxies or drives towards the runway holds, and so does who was
+        cleared on to it and is on no display. Who is on it goes on. An arrival goes around once it
+        is urgent, unless the displays show that all others can be held short.
         """
         is_urgent = advisory.severity.rank >= Severity.WARNING.rank
-        held = 0
+        are_short = True
         arrivals: list[tuple[str, str]] = []
         for callsign in advisory.traffic:
             target = self._displays.target(callsign, now_ns)
@@ -151,18 +164,21 @@ class Judgement:
             final = None if target is None else self._displays.final_of(target)
             if final is not None or _is_arrival(target, strip.runway_use):
                 arrivals.append((callsign, final or runway))
-            elif _is_departure(target, strip.runway_use):
+                continue
+            are_short &= target is not None and self._displays.runway_of(target) is None
+            if _is_departure(target, strip.runway_use):
                 yield callsign, CancelTakeoff(runway=runway)
-                held += 1
-            elif (
-                target is not None and target.on_ground and not self._displays.is_on_runway(target)
-            ):
+            elif self._is_short(target, strip.runway_use):
                 yield callsign, HoldPosition(runway=runway)
-                held += 1
-        is_free = held > 0 and held + len(arrivals) == len(advisory.traffic)
-        if is_urgent and not (is_free and len(arrivals) < 2):
-            for callsign, runway in arrivals[-1:] if is_free else arrivals:
+        if is_urgent and (not are_short or len(arrivals) > 1):
+            for callsign, runway in arrivals[-1:] if are_short else arrivals:
                 yield callsign, GoAround(runway=runway)
+
+    def _is_short(self, target: Target | None, use: Action | None) -> bool:
+        """Return whether somebody on the ground has not entered a runway, as far as is known."""
+        if target is None:
+            return use in ENTERING
+        return target.on_ground and self._displays.runway_of(target) is None
 
     def _in_flight(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
         """Yield a climb of the higher of two and a descent of the lower, to free levels."""

@@ -5,19 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from airhilt.phraseology import Action
+from airhilt.phraseology import Action, agree
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
+from airhilt.sim import Director
 from airhilt.world.actors.listening import words
 
 RUNWAY_USES: frozenset[Action] = frozenset(
     {"cleared_to_land", "touch_and_go", "stop_and_go", "low_approach", "cleared_option",
-     "cleared_for_takeoff", "line_up", "go_around", "cancel_takeoff", "cancel_landing", "vacate"}
+     "cleared_for_takeoff", "line_up", "cross", "proceed", "backtrack", "go_around",
+     "cancel_takeoff", "cancel_landing", "vacate", "hold_short", "hold_position", "stop"}
 )  # fmt: skip
 """Instructions after which an earlier one about the use of a runway is not in force any more."""
 LANDING: frozenset[Action] = frozenset(
     {"cleared_to_land", "touch_and_go", "stop_and_go", "low_approach", "cleared_option"}
 )
+ENTERING: frozenset[Action] = frozenset({"cross", "proceed", "backtrack"})
 DEPARTING: frozenset[Action] = frozenset({"cleared_for_takeoff", "line_up"})
 
 
@@ -40,6 +43,10 @@ class Strip:
     """The last instruction about the use of a runway."""
     runway: str | None = None
     """The runway of that instruction."""
+    read_back: set[str] = field(default_factory=set)
+    """Ids of the calls to it that it has read back as they were."""
+    told_ns: int = 0
+    """End of the last call with instructions for it."""
     follows_ra: bool = False
     """True from its report of a TCAS RA to its "clear of conflict"."""
 
@@ -47,8 +54,9 @@ class Strip:
 class Strips:
     """The strips of all units: a unit passes a strip on with the aircraft."""
 
-    def __init__(self, stations: Stations) -> None:
+    def __init__(self, stations: Stations, director: Director) -> None:
         self._stations = stations
+        self._director = director
         self._strips: dict[str, Strip] = {}
 
     def of(self, callsign: str) -> Strip:
@@ -65,6 +73,7 @@ class Strips:
         instructions = self._stations.listener(call.frequency_khz).parse(call.said).instructions
         if instructions:
             strip.instructions.append(call)
+            strip.told_ns = self._director.now_ns
         for each in instructions:
             if each.action in RUNWAY_USES and not each.is_conditional:
                 strip.runway_use, strip.runway = each.action, each.runway or strip.runway
@@ -73,11 +82,23 @@ class Strips:
         """Note a call of an actor that a unit has heard, as it heard it."""
         strip = self.of(call.speaker)
         strip.contact = Contact(unit, call.frequency_khz)
+        told = call.in_reply_to
+        is_answer = told is not None and (told.speaker, told.addressed) == (unit, call.speaker)
+        if told is not None and is_answer and self._reads_back(told, text):
+            strip.read_back.add(told.id)
         said = " ".join(words(text))
         if "tcas ra" in said or "t c a s r a" in said:
             strip.follows_ra = True
         elif "clear of conflict" in said:
             strip.follows_ra = False
+
+    def _reads_back(self, call: RadioCall, text: str) -> bool:
+        """Return whether words read some of a call back, and nothing of it otherwise."""
+        parse = self._stations.listener(call.frequency_khz).parse
+        meant = parse(call.said).instructions
+        actions = {each.action for each in meant}
+        read = [each for each in parse(text).instructions if each.action in actions]
+        return bool(read) and all(any(agree(one, other) for other in meant) for one in read)
 
     def contact(self, callsign: str) -> Contact | None:
         """Return who works an actor: the unit of the last exchange.

@@ -19,10 +19,12 @@ from airhilt.messages import (
     Recommendation,
     Turn,
 )
-from airhilt.phraseology import Instruction, Style
+from airhilt.phraseology import Instruction, Sense, Style
+from airhilt.phraseology import Turn as Side
 from airhilt.phraseology.say import speak_instruction, speak_traffic, speak_traffic_alert
 from airhilt.sensors.radio.controllers.displays import Displays, Target
 from airhilt.sensors.radio.controllers.measures import ROLLING_M_S, Measure
+from airhilt.sensors.radio.controllers.strips import Strips
 from airhilt.units import DEGREE, NAUTICAL_MILE
 
 HEADING_STEP_DEG = 5.0
@@ -34,8 +36,11 @@ LEVEL_STEP_FT = 100.0
 class Wording:
     """Words measures for the crew or driver that they are for."""
 
-    def __init__(self, displays: Displays, style: Style, variation_deg: float) -> None:
+    def __init__(
+        self, displays: Displays, strips: Strips, style: Style, variation_deg: float
+    ) -> None:
         self._displays = displays
+        self._strips = strips
         self._style = style
         self._variation_deg = variation_deg
 
@@ -46,7 +51,7 @@ class Wording:
             case GoAround():
                 return (Instruction("go_around"),)
             case CancelTakeoff():
-                return self._cancellation(target)
+                return self._cancellation(measure.callsign, target)
             case HoldPosition() if measure.callsign in self._displays.vehicles:
                 return (Instruction("stop", immediate=True),)
             case HoldPosition():
@@ -55,7 +60,7 @@ class Wording:
                 return (_level("maintain", altitude_ft),)
             case Climb(sense=sense, altitude_ft=altitude_ft, turn_deg=degrees):
                 turn = (self._turn(degrees, target),) if degrees else ()
-                return (*turn, _level(sense, altitude_ft))
+                return (*turn, replace(_level(sense, altitude_ft), immediate=True))
             case Turn(degrees=degrees):
                 return (self._turn(degrees, target),)
             case _:
@@ -69,26 +74,37 @@ class Wording:
             if target is not None and traffic is not None:
                 where = self._position(target, traffic)
             return speak_traffic_alert(measure.callsign, instructions, where, self._style)
-        reason = ""
-        if traffic is not None and self._displays.is_on_runway(traffic):
-            reason = "traffic on the runway"
-        elif traffic is not None and self._displays.final_of(traffic):
-            reason = "traffic on final"
+        runway = getattr(measure.action, "runway", None)
+        reason = "" if traffic is None else self._reason(traffic, runway)
         return speak_instruction(measure.callsign, instructions, self._style, reason)
 
-    def _cancellation(self, target: Target | None) -> tuple[Instruction, ...]:
-        """Return what cancels a takeoff: who has begun to roll is to stop."""
+    def _reason(self, traffic: Target, runway: str | None) -> str:
+        """Return what is in the way of the user of a runway, in a few words."""
+        on, final = self._displays.runway_of(traffic), self._displays.final_of(traffic)
+        if on is None and final is None:
+            return ""
+        if runway is not None and not self._displays.are_one_runway(on or final, runway):
+            return "crossing traffic"
+        return "traffic on the runway" if on is not None else "traffic on final"
+
+    def _cancellation(self, callsign: str, target: Target | None) -> tuple[Instruction, ...]:
+        """Return what keeps somebody from taking off, or stops the takeoff.
+
+        Who has begun to roll is to stop. Who has no clearance for takeoff has none to cancel.
+        """
         cancel = Instruction("cancel_takeoff")
+        is_cleared = self._strips.of(callsign).runway_use == "cleared_for_takeoff"
         is_rolling = target is not None and target.speed_m_s >= ROLLING_M_S
-        if self._style == "faa":
+        if is_cleared and self._style == "faa":
             return (cancel,)
         if is_rolling:
             return (Instruction("stop", immediate=True),)
-        return (Instruction("hold_position"), cancel)
+        return (Instruction("hold_position"), *([cancel] if is_cleared else []))
 
     def _turn(self, degrees: float, target: Target | None) -> Instruction:
         """Return a turn by an angle as a magnetic heading, where the track is displayed."""
-        side = Instruction("turn_by", turn="right" if degrees >= 0.0 else "left")
+        turn: Side = "right" if degrees >= 0.0 else "left"
+        side = Instruction("turn_by", turn=turn, immediate=True)
         if target is None:
             return replace(side, turn_deg=float(round(abs(degrees) / 5.0) * 5))
         track_deg = target.track_rad / DEGREE + degrees - self._variation_deg
@@ -108,6 +124,6 @@ def _is_for_flight(action: Recommendation) -> bool:
     return isinstance(action, Climb | MaintainLevel | Turn)
 
 
-def _level(sense: str, altitude_ft: float) -> Instruction:
+def _level(sense: Sense, altitude_ft: float) -> Instruction:
     rounded_ft = round(altitude_ft / LEVEL_STEP_FT) * LEVEL_STEP_FT
-    return Instruction("altitude", sense=sense, altitude_ft=rounded_ft)  # type: ignore[arg-type]
+    return Instruction("altitude", sense=sense, altitude_ft=rounded_ft)
