@@ -21,11 +21,16 @@ class Stations:
     """Actors and units with their radios.
 
     An actor or a unit is on a frequency if a line of the script there is spoken by it, is
-    addressed to it, or has a command for it.
+    addressed to it, or has a command for it. Who is expected and has no line is on the first
+    frequency of the script.
     """
 
     def __init__(
-        self, actors: Mapping[str, Actor], site: ScenarioSite, lines: Iterable[RadioLine]
+        self,
+        actors: Mapping[str, Actor],
+        site: ScenarioSite,
+        lines: Iterable[RadioLine],
+        expected: Iterable[str] = (),
     ) -> None:
         self._actors = actors
         self._ground_m = site.ground_m
@@ -43,6 +48,9 @@ class Stations:
             self._on.setdefault(line.frequency_khz, {}).update(
                 dict.fromkeys(name for name in named if name is not None)
             )
+        if self._on:
+            first = next(iter(self._on.values()))
+            first.update(dict.fromkeys(name for name in expected if not self.frequencies_of(name)))
 
     def on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the names of the actors and units on a frequency."""

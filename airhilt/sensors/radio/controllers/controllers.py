@@ -19,7 +19,7 @@ from airhilt.messages import (
     SeatAction,
     key_chunk,
 )
-from airhilt.phraseology import Instruction
+from airhilt.phraseology import Action, Instruction
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.models import Alerting, Controller, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
@@ -35,6 +35,10 @@ from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 
+Told = tuple[frozenset[str], str, tuple[Action, ...]]
+"""Traffic of a conflict, callsign of who was told something about it, and the actions."""
+FURTHER_FT = 500.0
+"""Distance in ft beyond a level that was given from which another one is news: half a level."""
 ANSWERS_WITHIN_S = 5.0
 """Time in s in which a controller expects the answer to a call: an assumption."""
 ACTS_WITHIN_S = 10.0
@@ -50,9 +54,9 @@ class Position:
     reactions: ReactionModel
     attended: set[str] = field(default_factory=set)
     """Ids of the advisories that the controller has seen and acts on."""
-    answered: set[tuple[str, str, tuple[Instruction, ...]]] = field(default_factory=set)
-    """What was said: id of the advisory, callsign and instructions."""
-    told: set[tuple[str, str]] = field(default_factory=set)
+    said: dict[Told, tuple[Instruction, ...]] = field(default_factory=dict)
+    """The last instructions about each conflict to each actor, by their actions."""
+    silences: set[tuple[str, str]] = field(default_factory=set)
     """Causes of silence that are in the log, with the ids of the advisories."""
     speaking: RadioCall | None = None
     """Call on the air, or waiting for the frequency."""
@@ -135,13 +139,23 @@ class Controllers:
     def _advised(self, advisory: Advisory, kind: Alerting) -> None:
         """Show an advisory to the controllers, who turn to it after their reaction times."""
         if not advisory.active:
-            self._shown.pop(advisory.id, None)
+            self._over(advisory)
             return
         asks = isinstance(advisory.recommendation, Confirm)
         if asks or advisory.severity.rank >= FOLLOWED_FROM.rank:
             self._shown[advisory.id] = alert = Alert(kind, advisory)
             for position in self._positions.values():
                 self._react(position, alert)
+
+    def _over(self, advisory: Advisory) -> None:
+        """Forget a conflict that is over: if it comes back, everything is said anew."""
+        self._shown.pop(advisory.id, None)
+        self._judgement.forget(advisory.id)
+        traffic = frozenset(advisory.traffic)
+        if all(set(each.advisory.traffic) != traffic for each in self._shown.values()):
+            for position in self._positions.values():
+                for told in [each for each in position.said if each[0] == traffic]:
+                    del position.said[told]
 
     def _react(self, position: Position, alert: Alert) -> None:
         advisory = alert.advisory
@@ -253,14 +267,15 @@ class Controllers:
             now_ns = self._director.now_ns
             instructions = self._wording.instructions(measure, now_ns)
             text = self._wording.text(measure, instructions, now_ns)
-        said = (advisory.id, callsign, instructions)
-        if not instructions or said in position.answered:
+        actions = tuple(each.action for each in instructions)
+        said = (frozenset(advisory.traffic), callsign, actions)
+        if not _is_news(instructions, position.said.get(said, ())):
             return None
         told = self._is_told(callsign, measure, instructions)
         if told == "perhaps":
             self._director.after(ANSWERS_WITHIN_S, partial(self._speak, position))
             return None
-        position.answered.add(said)
+        position.said[said] = instructions
         if told == "yes":
             return None
         position.calls += 1
@@ -337,16 +352,18 @@ class Controllers:
                 yield ScriptedCommand(actor=callsign, command=order.command, delay_s=COMPLY_AFTER_S)
 
     def _planned(self, call: RadioCall) -> tuple[ScriptedCommand, ...]:
-        """Return the commands of a scripted instruction and of its readback, without failures."""
+        """Return the commands of a scripted instruction and of a right readback in the script."""
         if call.scripted is None:
             return call.commands
-        answers = [
-            line.declared.commands
+        differs = self._stations.listener(call.frequency_khz).differs
+        lines = [
+            line.declared
             for line in self._context.lines
-            if call.addressed == line.declared.speaker
-            and call.id in self._answered[line.declared.id]
+            if call.id in self._answered[line.declared.id]
+            and line.declared.speaker == call.addressed
+            and not differs(line.declared.text, call.said)
         ]
-        return sum(answers, call.scripted.declared.commands)
+        return sum((line.commands for line in lines), call.scripted.declared.commands)
 
     def _supersede(self, callsign: str, call: RadioCall) -> None:
         """Let an actor leave undone what calls before have told it and it has not done yet."""
@@ -357,8 +374,8 @@ class Controllers:
     # --- what is told -----------------------------------------------------------------------
 
     def _silent(self, position: Position, advisory: Advisory, why: str) -> None:
-        if (advisory.id, why) not in position.told:
-            position.told.add((advisory.id, why))
+        if (advisory.id, why) not in position.silences:
+            position.silences.add((advisory.id, why))
             self._event("controller_silent", position.unit, f"{why} ({advisory.id})")
 
     def _event(self, kind: EventKind, subject: str, text: str) -> None:
@@ -381,6 +398,25 @@ def _urgency(advisory: Advisory) -> tuple[int, float]:
     evidence = advisory.evidence
     times = (evidence.time_to_go_s, evidence.time_to_loss_s)
     return -advisory.severity.rank, min((time for time in times if time is not None), default=1e9)
+
+
+def _is_news(instructions: tuple[Instruction, ...], before: tuple[Instruction, ...]) -> bool:
+    """Return whether instructions are to be said after others with the same actions.
+
+    A level is news if it is further in the same sense, or if it replaces "maintain". Whoever was
+    told to climb is not told to descend because of the same conflict.
+    """
+    if not before:
+        return bool(instructions)
+    for one, last in zip(instructions, before, strict=True):
+        if one.altitude_ft is None or last.altitude_ft is None:
+            continue
+        if last.sense == "maintain" and one.sense != "maintain":
+            return True
+        up = 1.0 if one.sense == "climb" else -1.0
+        if one.sense == last.sense and one.sense != "maintain":
+            return up * (one.altitude_ft - last.altitude_ft) >= FURTHER_FT
+    return False
 
 
 def _named(instructions: tuple[Instruction, ...]) -> str:

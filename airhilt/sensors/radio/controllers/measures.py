@@ -39,6 +39,9 @@ LEAST_HEIGHT_M = 2000.0 * FOOT
 """Height above the airport below which a controller gives no descent, in m: an assumption."""
 LOOK_AHEAD_S = 120.0
 """Time for which a controller judges by displays whether two come near each other, in s."""
+ALERT_WITHIN_S = 60.0
+"""Time to a loss of separation in s within which two are in unsafe proximity, so that a controller
+issues a safety alert (FAA Order JO 7110.65, 2-1-6): an assumption."""
 NEAR_ON_GROUND_M = 0.5 * NAUTICAL_MILE
 """Distance in m within which two on an airport are near each other: an assumption."""
 
@@ -51,6 +54,8 @@ class Measure:
     action: Recommendation
     traffic: Target | None = None
     """What it is to be told of, if that is displayed."""
+    is_alert: bool = True
+    """True if the two are in unsafe proximity, or that cannot be told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,18 +75,36 @@ class Judgement:
         self._displays = displays
         self._strips = strips
         self._said = said
+        self._levels: dict[str, dict[str, Recommendation]] = {}
+        """Levels that the controllers chose themselves, by advisory: they hold while it lasts."""
+
+    def forget(self, advisory_id: str) -> None:
+        """Forget what was decided about an advisory that is over."""
+        self._levels.pop(advisory_id, None)
 
     def measures(self, advisory: Advisory, now_ns: int) -> tuple[Measure | Repetition, ...]:
         """Return what is to be done about an advisory, the most important first."""
         actions = dict(self._recommended(advisory, now_ns)) or dict(self._own(advisory, now_ns))
-        repetitions = self._repetitions(advisory)
+        repetitions = {each.callsign: each for each in self._repetitions(advisory)}
+        for callsign, action in list(actions.items()):
+            if callsign in repetitions and isinstance(action, MaintainLevel):
+                del actions[callsign]
         return (
-            *(each for each in repetitions if each.callsign not in actions),
+            *(each for each in repetitions.values() if each.callsign not in actions),
             *(
-                Measure(callsign, action, self._other(advisory, callsign, now_ns))
+                self._measure(advisory, callsign, action, now_ns)
                 for callsign, action in actions.items()
             ),
         )
+
+    def _measure(
+        self, advisory: Advisory, callsign: str, action: Recommendation, now_ns: int
+    ) -> Measure:
+        own = self._displays.target(callsign, now_ns)
+        others = [name for name in advisory.traffic if name != callsign]
+        traffic = self._displays.target(others[0], now_ns) if others else None
+        is_alert = own is None or traffic is None or self._come_near(own, traffic, ALERT_WITHIN_S)
+        return Measure(callsign, action, traffic, is_alert=is_alert)
 
     def is_contradicted(self, advisory: Advisory, now_ns: int) -> bool:
         """Return whether the displays show all of the traffic, and no two of it coming near.
@@ -94,17 +117,19 @@ class Judgement:
             return False
         if len(shown) < max(2, len(targets)):
             return False
-        return not any(self._come_near(one, other) for one, other in combinations(shown, 2))
+        return not any(
+            self._come_near(one, other, LOOK_AHEAD_S) for one, other in combinations(shown, 2)
+        )
 
-    def _come_near(self, one: Target, other: Target) -> bool:
+    def _come_near(self, one: Target, other: Target, within_s: float) -> bool:
         motion = relative(one, other)
         if one.on_ground or other.on_ground:
             within = motion.interval_within(NEAR_ON_GROUND_M)
-            return within is not None and within[1] >= 0.0 and within[0] <= LOOK_AHEAD_S
+            return within is not None and within[1] >= 0.0 and within[0] <= within_s
         minima = Minima(self._displays.horizontal_minimum_m, self._displays.vertical_minimum_m)
         profiles = [VerticalProfile(each.altitude_m, each.vertical_m_s) for each in (one, other)]
         loss_s = time_to_loss_s(motion, *profiles, minima)
-        return loss_s is not None and loss_s <= LOOK_AHEAD_S
+        return loss_s is not None and loss_s <= within_s
 
     def _recommended(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
         """Yield what an advisory recommends, without a halt of somebody in the way.
@@ -143,7 +168,9 @@ class Judgement:
             case "runway_conflict":
                 yield from self._on_runway(advisory, now_ns)
             case "loss_of_separation":
-                yield from self._in_flight(advisory, now_ns)
+                levels = self._levels.get(advisory.id) or dict(self._in_flight(advisory, now_ns))
+                self._levels[advisory.id] = levels
+                yield from levels.items()
             case _:
                 return
 
@@ -202,11 +229,6 @@ class Judgement:
         else:
             level_ft = round(lower.altitude_m / FOOT / 100.0) * 100.0
             yield lower.callsign, MaintainLevel(altitude_ft=level_ft)
-
-    def _other(self, advisory: Advisory, callsign: str, now_ns: int) -> Target | None:
-        """Return the traffic of one party of an advisory as it is displayed."""
-        others = [name for name in advisory.traffic if name != callsign]
-        return self._displays.target(others[0], now_ns) if others else None
 
 
 def _is_arrival(target: Target | None, use: Action | None) -> bool:

@@ -59,10 +59,11 @@ class Wording:
             case MaintainLevel(altitude_ft=altitude_ft):
                 return (_level("maintain", altitude_ft),)
             case Climb(sense=sense, altitude_ft=altitude_ft, turn_deg=degrees):
-                turn = (self._turn(degrees, target),) if degrees else ()
-                return (*turn, replace(_level(sense, altitude_ft), immediate=True))
+                turn = (self._turn(degrees, target, measure),) if degrees else ()
+                level = _level(sense, altitude_ft)
+                return (*turn, replace(level, immediate=measure.is_alert))
             case Turn(degrees=degrees):
-                return (self._turn(degrees, target),)
+                return (self._turn(degrees, target, measure),)
             case _:
                 return ()
 
@@ -73,7 +74,9 @@ class Wording:
             where = ""
             if target is not None and traffic is not None:
                 where = self._position(target, traffic)
-            return speak_traffic_alert(measure.callsign, instructions, where, self._style)
+            if measure.is_alert:
+                return speak_traffic_alert(measure.callsign, instructions, where, self._style)
+            return speak_instruction(measure.callsign, instructions, self._style, where)
         runway = getattr(measure.action, "runway", None)
         reason = "" if traffic is None else self._reason(traffic, runway)
         return speak_instruction(measure.callsign, instructions, self._style, reason)
@@ -101,10 +104,10 @@ class Wording:
             return (Instruction("stop", immediate=True),)
         return (Instruction("hold_position"), *([cancel] if is_cleared else []))
 
-    def _turn(self, degrees: float, target: Target | None) -> Instruction:
+    def _turn(self, degrees: float, target: Target | None, measure: Measure) -> Instruction:
         """Return a turn by an angle as a magnetic heading, where the track is displayed."""
         turn: Side = "right" if degrees >= 0.0 else "left"
-        side = Instruction("turn_by", turn=turn, immediate=True)
+        side = Instruction("turn_by", turn=turn, immediate=measure.is_alert)
         if target is None:
             return replace(side, turn_deg=float(round(abs(degrees) / 5.0) * 5))
         track_deg = target.track_rad / DEGREE + degrees - self._variation_deg
