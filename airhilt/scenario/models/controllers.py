@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from airhilt.messages import AdvisoryKind
-from airhilt.quantities import Number, Share
+from airhilt.quantities import FrequencyKhz, Number, Share
 from airhilt.scenario.models.actors import Reactions
 
 Alerting = AdvisoryKind | Literal["conflict_alert"]
@@ -32,6 +32,11 @@ class Controller(Reactions):
             "conflict_alert",
         ),
         description="kinds of advisories that it acts on, and conflict_alert for that of the world",
+    )
+    frequencies_khz: tuple[FrequencyKhz, ...] = Field(
+        default=(),
+        max_length=20,
+        description="frequencies of its unit besides those of the unit's radio lines",
     )
     ignores_contradicted: Share = Field(
         default=0.0,

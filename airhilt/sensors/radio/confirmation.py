@@ -47,7 +47,8 @@ class Confirmations:
     def confirmation(self, advisory: Advisory, name: str) -> RadioCall | None:
         """Return what an actor or a unit says to confirm the call that an advisory asks to confirm.
 
-        None if it has done so, or has no part in the call, or the call is made again anyway.
+        None if it has done so, or has no part in the call, or the call is made again anyway. Nobody
+        confirms a call twice, whatever becomes of its advisories.
         """
         recommended, key = advisory.recommendation, (advisory.id, name)
         if not isinstance(recommended, Confirm) or key in self._asked:
@@ -56,7 +57,7 @@ class Confirmations:
         if call is None or name not in (call.speaker, call.addressed):
             return None
         self._asked.add(key)
-        if call.is_due_again:
+        if call.is_due_again or call.id in self._times:
             return None
         has_taken = call.addressed is None or call.addressed in call.taken_by
         if name != call.speaker:

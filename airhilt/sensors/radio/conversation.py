@@ -12,6 +12,7 @@ from functools import partial
 from airhilt.messages import (
     Advisory,
     AgreeToUses,
+    EquipmentAlert,
     LeaveSeat,
     Message,
     PressToTalk,
@@ -34,6 +35,7 @@ from airhilt.sensors.radio.listeners import Listeners
 from airhilt.sensors.radio.microphones import Microphones
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.person_calls import PersonCalls, RecognisedCall
+from airhilt.sensors.radio.ra_reports import RaReports
 from airhilt.sensors.radio.radio_call import Speakers, calls_of
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
@@ -77,6 +79,7 @@ class RadioConversation:
         hearing = hearing or HearingModel(context.seed)
         self._confirmations = Confirmations(context, self._speakers, policy)
         self._controllers = Controllers(context, self._speakers, self._confirmations)
+        self._ra_reports = RaReports(context, self._speakers, self._controllers.contact)
         self._listeners = Listeners(
             context, hearing, transmissions, self._compliance, policy, self._controllers.heard
         )
@@ -108,6 +111,8 @@ class RadioConversation:
                 self._listeners.take(message)
             case Advisory(recipient=recipient) if self._stations.is_actor(recipient):
                 self._confirmations.take(message)
+            case EquipmentAlert():
+                self._ra_reports.take(message)
         self._controllers.take(key, message)
 
     def _act(self, speaker: str, act: SeatAct) -> None:

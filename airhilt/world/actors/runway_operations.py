@@ -117,7 +117,8 @@ class RunwayOperations:
             case TaxiCommand():
                 self._taxi(command)
             case HoldPositionCommand() if self._aircraft.phase == "takeoff_roll":
-                self.cancel_takeoff()
+                if not self.cancel_takeoff():
+                    raise Unable("unable, beyond decision speed")
             case HoldPositionCommand() | HoldShortCommand():
                 self._aircraft.procedures.hold_position()
                 self._next = None

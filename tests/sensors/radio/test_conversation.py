@@ -233,7 +233,8 @@ def asked(world: World, recipient: str, *names: str, t_s: float = 30.0) -> None:
 
 
 def test_a_controller_who_is_asked_says_the_instruction_again_and_the_crew_reads_it_back() -> None:
-    world = World(CLEARANCE, READBACK)
+    prompt = {TOWER: {"reaction_median_s": 3.0, "reaction_sigma": 0.0}}
+    world = World(CLEARANCE, READBACK, controllers=prompt)
     asked(world, "ATC", "clearance")
     asked(world, "ATC", "clearance")
     world.run_until(60.0)
@@ -477,9 +478,7 @@ def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s() -> 
 
 def test_nobody_hears_who_exists_no_more_or_is_heard_by_them() -> None:
     world = World(CLEARANCE, READBACK)
-    stations = Stations(
-        cast(Any, world.actors), ScenarioSite.of(world.scenario), world.scenario.radio.lines
-    )
+    stations = Stations(cast(Any, world.actors), ScenarioSite.of(world.scenario), world.scenario)
     assert stations.is_there("AAL123")
     assert stations.audible("AAL123", TOWER)
     assert stations.received("AAL123")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Literal, NamedTuple
@@ -20,7 +20,7 @@ from airhilt.messages import (
     key_chunk,
 )
 from airhilt.phraseology import Action, Instruction
-from airhilt.scenario.conversation import needed_lines
+from airhilt.scenario.conversation import controlling_units, needed_lines
 from airhilt.scenario.models import Alerting, Controller, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
@@ -28,7 +28,7 @@ from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.controllers.displays import Displays
 from airhilt.sensors.radio.controllers.measures import Judgement, Measure, Repetition
-from airhilt.sensors.radio.controllers.strips import Strips
+from airhilt.sensors.radio.controllers.strips import Contact, Strips
 from airhilt.sensors.radio.controllers.wording import Wording
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sim.streams import stream
@@ -95,9 +95,11 @@ class Controllers:
         self._judgement = Judgement(self._displays, self._strips, speakers.said)
         style, variation_deg = context.radio.phraseology, context.stations.variation_deg
         self._wording = Wording(self._displays, self._strips, style, variation_deg)
+        declared = context.scenario.controllers
         self._positions = {
             unit: Position(unit, each, ReactionModel(unit, each, context.seed))
-            for unit, each in controllers_of(context).items()
+            for unit in controlling_units(context.scenario)
+            for each in [declared.get(unit, Controller())]
         }
         self._answered = needed_lines(context.scenario)
         self._shown: dict[str, Alert] = {}
@@ -133,6 +135,10 @@ class Controllers:
         """Take in a call of an actor as a unit has heard it."""
         if self._stations.is_actor(call.speaker):
             self._strips.heard(call, unit, text)
+
+    def contact(self, callsign: str) -> Contact | None:
+        """Return the unit that works an actor, and on which frequency; None if there is none."""
+        return self._strips.contact(callsign)
 
     # --- reacting ---------------------------------------------------------------------------
 
@@ -198,7 +204,7 @@ class Controllers:
 
     def _works(self, position: Position, callsign: str) -> bool:
         """Return whether a unit works an actor; what nobody works concerns the first unit."""
-        contact = self._strips.contact(callsign) if self._stations.is_actor(callsign) else None
+        contact = self._strips.contact(callsign)
         if contact is None:
             return position is next(iter(self._positions.values()))
         return contact.unit == position.unit
@@ -244,7 +250,7 @@ class Controllers:
     ) -> RadioCall | None:
         """Return the call of a measure; None if it was made, or cannot be made by this unit."""
         callsign = measure.callsign
-        contact = self._strips.contact(callsign) if self._stations.is_actor(callsign) else None
+        contact = self._strips.contact(callsign)
         if contact is None:
             if position is next(iter(self._positions.values())):
                 self._silent(position, advisory, f"no unit can call {callsign}")
@@ -293,19 +299,15 @@ class Controllers:
         return call
 
     def _is_settled(self, advisory: Advisory, callsign: str) -> bool:
-        """Return whether there is no need to confirm a call, or something is more urgent.
+        """Return whether a call need not be confirmed now.
 
-        There is none if the controller has heard it read back as it was, or has given other
-        instructions since.
+        Something is more urgent, or other instructions came after it.
         """
         if any(each.advisory.severity.rank >= FOLLOWED_FROM.rank for each in self._shown.values()):
             return True
         strip, said = self._strips.of(callsign), self._speakers.said
         calls = [said[name] for name in advisory.evidence.radio_ids if name in said]
         given = [call for call in calls if call in strip.instructions]
-        answered = [call.in_reply_to for call in calls if call.in_reply_to is not None]
-        if any(call.id in strip.read_back for call in (*given, *answered)):
-            return True
         return bool(given) and strip.instructions[-1] not in given
 
     def _is_told(
@@ -381,16 +383,6 @@ class Controllers:
     def _event(self, kind: EventKind, subject: str, text: str) -> None:
         event = Event(t_ns=self._director.now_ns, kind=kind, subject=subject, text=text)
         self._context.publish("truth/event", event)
-
-
-def controllers_of(context: RadioContext) -> Mapping[str, Controller]:
-    """Return the controller of each unit, the one that listens first."""
-    radio, is_actor = context.radio, context.stations.is_actor
-    lines = [line.declared for line in context.lines]
-    named = [radio.controller, *(line.speaker for line in lines), *(line.to for line in lines)]
-    units = [name for name in dict.fromkeys(named) if name is not None and not is_actor(name)]
-    declared = context.scenario.controllers
-    return {unit: declared.get(unit, Controller()) for unit in units}
 
 
 def _urgency(advisory: Advisory) -> tuple[int, float]:

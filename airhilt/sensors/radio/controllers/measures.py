@@ -127,8 +127,8 @@ class Judgement:
             within = motion.interval_within(NEAR_ON_GROUND_M)
             return within is not None and within[1] >= 0.0 and within[0] <= within_s
         minima = Minima(self._displays.horizontal_minimum_m, self._displays.vertical_minimum_m)
-        profiles = [VerticalProfile(each.altitude_m, each.vertical_m_s) for each in (one, other)]
-        loss_s = time_to_loss_s(motion, *profiles, minima)
+        own, their = (VerticalProfile(it.altitude_m, it.vertical_m_s) for it in (one, other))
+        loss_s = time_to_loss_s(motion, own, their, minima)
         return loss_s is not None and loss_s <= within_s
 
     def _recommended(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:

@@ -104,8 +104,10 @@ class Strips:
         """Return who works an actor: the unit of the last exchange.
 
         Before the first, it is the unit on the frequency on which the actor is expected; None
-        without one.
+        without one, and for what is no actor of the scenario.
         """
+        if not self._stations.is_actor(callsign):
+            return None
         known = self.of(callsign).contact
         if known is not None:
             return known
