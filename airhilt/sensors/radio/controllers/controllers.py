@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import partial
-from typing import Literal, NamedTuple
 
 from airhilt.messages import (
     CONTROLLER,
@@ -19,55 +17,25 @@ from airhilt.messages import (
     SeatAction,
     key_chunk,
 )
-from airhilt.phraseology import Action, Instruction
-from airhilt.scenario.conversation import controlling_units, needed_lines
-from airhilt.scenario.models import Alerting, Controller, ScriptedCommand
-from airhilt.sensors.radio.answers import Answers
-from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
+from airhilt.phraseology import Instruction
+from airhilt.scenario.conversation import controlling_units
+from airhilt.scenario.models import Alerting, Controller
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.controllers.calls import ControllerCalls
 from airhilt.sensors.radio.controllers.displays import Displays
 from airhilt.sensors.radio.controllers.measures import Judgement, Measure, Repetition
+from airhilt.sensors.radio.controllers.positions import Alert, Position
 from airhilt.sensors.radio.controllers.strips import Contact, Strips
-from airhilt.sensors.radio.controllers.wording import Wording
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 
-Told = tuple[frozenset[str], str, tuple[Action, ...]]
-"""Traffic of a conflict, callsign of who was told something about it, and the actions."""
-FURTHER_FT = 500.0
-"""Distance in ft beyond a level that was given from which another one is news: half a level."""
 ANSWERS_WITHIN_S = 5.0
 """Time in s in which a controller expects the answer to a call: an assumption."""
 ACTS_WITHIN_S = 10.0
 """Time in s that a controller gives somebody to do what it was told: an assumption."""
-
-
-@dataclass(slots=True)
-class Position:
-    """A controller's working position at one unit."""
-
-    unit: str
-    controller: Controller
-    reactions: ReactionModel
-    attended: set[str] = field(default_factory=set)
-    """Ids of the advisories that the controller has seen and acts on."""
-    said: dict[Told, tuple[Instruction, ...]] = field(default_factory=dict)
-    """The last instructions about each conflict to each actor, by their actions."""
-    silences: set[tuple[str, str]] = field(default_factory=set)
-    """Causes of silence that are in the log, with the ids of the advisories."""
-    speaking: RadioCall | None = None
-    """Call on the air, or waiting for the frequency."""
-    calls: int = 0
-
-
-class Alert(NamedTuple):
-    """What a controller is shown of a conflict."""
-
-    kind: Alerting
-    advisory: Advisory
 
 
 class Controllers:
@@ -89,19 +57,16 @@ class Controllers:
         self._seats = context.seats
         self._speakers = speakers
         self._confirmations = confirmations
-        self._answers = Answers(context)
         self._displays = Displays()
         self._strips = Strips(context.stations, context.director)
         self._judgement = Judgement(self._displays, self._strips, speakers.said)
-        style, variation_deg = context.radio.phraseology, context.stations.variation_deg
-        self._wording = Wording(self._displays, self._strips, style, variation_deg)
+        self._calls = ControllerCalls(context, speakers, self._displays, self._strips)
         declared = context.scenario.controllers
         self._positions = {
             unit: Position(unit, each, ReactionModel(unit, each, context.seed))
             for unit in controlling_units(context.scenario)
             for each in [declared.get(unit, Controller())]
         }
-        self._answered = needed_lines(context.scenario)
         self._shown: dict[str, Alert] = {}
         """The last revision of each advisory to the controller that is not over, by id."""
 
@@ -160,8 +125,7 @@ class Controllers:
         traffic = frozenset(advisory.traffic)
         if all(set(each.advisory.traffic) != traffic for each in self._shown.values()):
             for position in self._positions.values():
-                for told in [each for each in position.said if each[0] == traffic]:
-                    del position.said[told]
+                position.forget(traffic)
 
     def _react(self, position: Position, alert: Alert) -> None:
         advisory = alert.advisory
@@ -192,8 +156,10 @@ class Controllers:
         """Return whether a controller acts on an advisory that it has seen."""
         if not position.reactions.complies(advisory.id):
             return False
-        is_contradicted = self._judgement.is_contradicted(advisory, self._director.now_ns)
-        if is_contradicted and self._ignores(position, advisory.id):
+        now_ns = self._director.now_ns
+        if self._ignores(position, advisory.id) and self._judgement.is_contradicted(
+            advisory, now_ns
+        ):
             self._silent(position, advisory, "the displays contradict it")
             return False
         return True
@@ -222,17 +188,16 @@ class Controllers:
         """Make the most urgent call that is still to be made, if the controller is not speaking."""
         if position.speaking is not None or self._seats.has_person(position.unit):
             return
-        shown = [each.advisory for each in self._shown.values()]
-        for advisory in sorted(shown, key=_urgency):
+        for alert in sorted(self._shown.values(), key=lambda each: each.urgency):
             call = None
-            if advisory.id in position.attended:
-                call = next(self._calls(position, advisory), None)
+            if alert.advisory.id in position.attended:
+                call = next(self._calls_about(position, alert.advisory), None)
             if call is not None:
                 position.speaking = call
                 self._speakers.say(call)
                 return
 
-    def _calls(self, position: Position, advisory: Advisory) -> Iterator[RadioCall]:
+    def _calls_about(self, position: Position, advisory: Advisory) -> Iterator[RadioCall]:
         """Yield the calls that are still to be made because of an advisory."""
         if isinstance(advisory.recommendation, Confirm):
             if not self._is_settled(advisory, advisory.recommendation.callsign):
@@ -241,11 +206,11 @@ class Controllers:
                     yield call
             return
         for measure in self._judgement.measures(advisory, self._director.now_ns):
-            call = self._call(position, advisory, measure)
+            call = self._call_of(position, advisory, measure)
             if call is not None:
                 yield call
 
-    def _call(
+    def _call_of(
         self, position: Position, advisory: Advisory, measure: Measure | Repetition
     ) -> RadioCall | None:
         """Return the call of a measure; None if it was made, or cannot be made by this unit."""
@@ -260,43 +225,23 @@ class Controllers:
         if self._strips.of(callsign).follows_ra:
             self._silent(position, advisory, f"{callsign} follows a TCAS RA")
             return None
-        listener = self._stations.listener(contact.frequency_khz)
-        if isinstance(measure, Repetition):
-            instructions = listener.parse(measure.call.said).instructions
-            text = self._answers.again(
-                callsign,
-                position.unit,
-                measure.call.said,
-                is_correction=measure.is_correction,
-            )
-        else:
-            now_ns = self._director.now_ns
-            instructions = self._wording.instructions(measure, now_ns)
-            text = self._wording.text(measure, instructions, now_ns)
+        instructions = self._calls.instructions(measure, contact)
         actions = tuple(each.action for each in instructions)
-        said = (frozenset(advisory.traffic), callsign, actions)
-        if not _is_news(instructions, position.said.get(said, ())):
+        told = (frozenset(advisory.traffic), callsign, actions)
+        if not position.has_news(told, instructions):
             return None
-        told = self._is_told(callsign, measure, instructions)
-        if told == "perhaps":
+        is_told = self._is_told(callsign, measure, instructions)
+        if is_told is None:
             self._director.after(ANSWERS_WITHIN_S, partial(self._speak, position))
             return None
-        position.said[said] = instructions
-        if told == "yes":
+        position.said[told] = instructions
+        if is_told:
             return None
         position.calls += 1
-        call = RadioCall(
-            f"controller.{key_chunk(position.unit)}.{position.calls}",
-            contact.frequency_khz,
-            position.unit,
-            callsign,
-            text,
-            tuple(self._commands(callsign, measure, contact.frequency_khz, instructions)),
-        )
-        call.once_taken_by(callsign, partial(self._supersede, callsign, call))
-        self._event("controller_reacts", position.unit, f"{callsign}: {_named(instructions)} "
-                    f"({advisory.id})")  # fmt: skip
-        return call
+        name = f"controller.{key_chunk(position.unit)}.{position.calls}"
+        does = ", ".join(action.replace("_", " ") for action in actions)
+        self._event("controller_reacts", position.unit, f"{callsign}: {does} ({advisory.id})")
+        return self._calls.call(name, measure, contact)
 
     def _is_settled(self, advisory: Advisory, callsign: str) -> bool:
         """Return whether a call need not be confirmed now.
@@ -312,66 +257,24 @@ class Controllers:
 
     def _is_told(
         self, callsign: str, measure: Measure | Repetition, instructions: tuple[Instruction, ...]
-    ) -> Literal["yes", "perhaps", "no"]:
+    ) -> bool | None:
         """Return whether somebody was told the same a moment ago, or what replaces a repetition.
 
-        Who was told and has not answered yet has perhaps heard it.
+        None: it was told, and the answer is still to come.
         """
         strip = self._strips.of(callsign)
         since_s = (self._director.now_ns - strip.told_ns) / SECOND_NS
         if not strip.instructions or since_s > ACTS_WITHIN_S:
-            return "no"
+            return False
         last = strip.instructions[-1]
         if isinstance(measure, Repetition):
-            return "no" if last is measure.call else "yes"
+            return last is not measure.call
         meant = self._stations.listener(last.frequency_khz).parse(last.said).instructions
         if not {each.action for each in instructions} <= {each.action for each in meant}:
-            return "no"
+            return False
         if last.id in strip.read_back:
-            return "yes"
-        return "perhaps" if since_s < ANSWERS_WITHIN_S else "no"
-
-    def _commands(
-        self,
-        callsign: str,
-        measure: Measure | Repetition,
-        frequency_khz: int,
-        instructions: tuple[Instruction, ...],
-    ) -> Iterator[ScriptedCommand]:
-        """Yield what the words of a call make its addressee do.
-
-        Words of the script that are said again do what the script has for them.
-        """
-        if isinstance(measure, Repetition):
-            planned = [one for one in self._planned(measure.call) if one.actor == callsign]
-            if planned:
-                yield from planned
-                return
-        listener = self._stations.listener(frequency_khz)
-        runway = self._stations.bound_runway(callsign)
-        for order in listener.orders_of(instructions, runway):
-            if order.command is not None:
-                yield ScriptedCommand(actor=callsign, command=order.command, delay_s=COMPLY_AFTER_S)
-
-    def _planned(self, call: RadioCall) -> tuple[ScriptedCommand, ...]:
-        """Return the commands of a scripted instruction and of a right readback in the script."""
-        if call.scripted is None:
-            return call.commands
-        differs = self._stations.listener(call.frequency_khz).differs
-        lines = [
-            line.declared
-            for line in self._context.lines
-            if call.id in self._answered[line.declared.id]
-            and line.declared.speaker == call.addressed
-            and not differs(line.declared.text, call.said)
-        ]
-        return sum((line.commands for line in lines), call.scripted.declared.commands)
-
-    def _supersede(self, callsign: str, call: RadioCall) -> None:
-        """Let an actor leave undone what calls before have told it and it has not done yet."""
-        for other in self._speakers.said.values():
-            if other is not call and callsign in (other.speaker, other.addressed):
-                other.withdrawn_for.add(callsign)
+            return True
+        return None if since_s < ANSWERS_WITHIN_S else False
 
     # --- what is told -----------------------------------------------------------------------
 
@@ -383,33 +286,3 @@ class Controllers:
     def _event(self, kind: EventKind, subject: str, text: str) -> None:
         event = Event(t_ns=self._director.now_ns, kind=kind, subject=subject, text=text)
         self._context.publish("truth/event", event)
-
-
-def _urgency(advisory: Advisory) -> tuple[int, float]:
-    """Return a key that is the least for the most urgent advisory."""
-    evidence = advisory.evidence
-    times = (evidence.time_to_go_s, evidence.time_to_loss_s)
-    return -advisory.severity.rank, min((time for time in times if time is not None), default=1e9)
-
-
-def _is_news(instructions: tuple[Instruction, ...], before: tuple[Instruction, ...]) -> bool:
-    """Return whether instructions are to be said after others with the same actions.
-
-    A level is news if it is further in the same sense, or if it replaces "maintain". Whoever was
-    told to climb is not told to descend because of the same conflict.
-    """
-    if not before:
-        return bool(instructions)
-    for one, last in zip(instructions, before, strict=True):
-        if one.altitude_ft is None or last.altitude_ft is None:
-            continue
-        if last.sense == "maintain" and one.sense != "maintain":
-            return True
-        up = 1.0 if one.sense == "climb" else -1.0
-        if one.sense == last.sense and one.sense != "maintain":
-            return up * (one.altitude_ft - last.altitude_ft) >= FURTHER_FT
-    return False
-
-
-def _named(instructions: tuple[Instruction, ...]) -> str:
-    return ", ".join(each.action.replace("_", " ") for each in instructions)
