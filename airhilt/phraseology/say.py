@@ -91,8 +91,11 @@ def speak_instruction(
 
 
 def speak_traffic(clock: int, distance_nm: int, style: Style) -> str:
-    """Return where traffic is, as a hand of the clock and a distance (7110.65, 2-1-21 a)."""
-    hand = speak_group(clock, style) if style == "faa" else speak_digits(str(clock), style)
+    """Return where traffic is, as a hand of the clock and a distance (7110.65, 2-1-21 a).
+
+    Ten, eleven and twelve are not said digit by digit (Annex 10 volume II, 5.2.1.4.1).
+    """
+    hand = speak_digits(str(clock), style) if clock < 10 else speak_group(clock, style)
     miles = "mile" if distance_nm == 1 else "miles"
     if distance_nm < 1:
         return f"{hand} o'clock, less than one mile"
@@ -114,8 +117,8 @@ def speak_traffic_alert(
     if any(each.immediate for each in instructions):
         action = f"{action} immediately"
     if style == "faa":
-        return _sentence("traffic alert", who, *([traffic] if traffic else []), action)
-    return _sentence(who, action, f"to avoid {traffic}" if traffic else "traffic alert")
+        return _sentence("traffic alert", who, *([f"traffic {traffic}"] if traffic else []), action)
+    return _sentence(who, action, f"to avoid traffic at {traffic}" if traffic else "traffic alert")
 
 
 def speak_ra_report(callsign: str, style: Style, *, is_over: bool) -> str:

@@ -46,7 +46,7 @@ Examples:
     required=True,
     metavar="NAME",
     help="paper: runway overlaps, with the numbers of the AIRHILT paper beside ours; full: all "
-    "families and assistants, modalities and topologies.",
+    "families and assistants, modalities and topologies; recipients: who is told.",
 )
 @click.option(
     "--seeds",

@@ -76,7 +76,8 @@ class Wording:
                 where = self._position(target, traffic)
             if measure.is_alert:
                 return speak_traffic_alert(measure.callsign, instructions, where, self._style)
-            return speak_instruction(measure.callsign, instructions, self._style, where)
+            told = f"traffic {where}" if where else ""
+            return speak_instruction(measure.callsign, instructions, self._style, told)
         runway = getattr(measure.action, "runway", None)
         reason = "" if traffic is None else self._reason(traffic, runway)
         return speak_instruction(measure.callsign, instructions, self._style, reason)
@@ -120,7 +121,7 @@ class Wording:
         from_nose_deg = (math.atan2(motion.east_m, motion.north_m) - own.track_rad) / DEGREE % 360.0
         clock = round(from_nose_deg / 30.0) % 12 or 12
         distance_nm = round(motion.distance_m / NAUTICAL_MILE)
-        return f"traffic {speak_traffic(clock, distance_nm, self._style)}"
+        return speak_traffic(clock, distance_nm, self._style)
 
 
 def _is_for_flight(action: Recommendation) -> bool:
