@@ -120,11 +120,13 @@ def test_a_crew_that_does_not_hear_the_call_does_nothing_and_it_is_made_again() 
     assert at_s > world.spoken(f"{name}.repeat-1").t_end_ns / 1e9
 
 
-def test_a_crew_that_mishears_the_call_does_what_it_has_heard() -> None:
+def test_a_crew_that_mishears_the_call_does_what_it_has_heard_until_it_is_corrected() -> None:
     name = "controller.Washington_Centre.1"
     heard = Heard("misheard", "American one two three, climb flight level three eight zero.")
     world = Tower(heard={(name, "AAL123"): heard}).advises(AAL123=UP).run_until(60.0)
-    assert [command.altitude_ft for _, command, _ in world.done] == [38_000.0]
+    assert [command.altitude_ft for _, command, _ in world.done] == [38_000.0, 34_000.0]
+    (_, again) = world.calls()
+    assert "negative, I say again, " in again.text
 
 
 def test_a_controller_who_does_not_respond_says_nothing_and_that_is_told() -> None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from airhilt.phraseology import Instruction
+from airhilt.phraseology.say import speak_instruction
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.models import ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
@@ -50,6 +51,8 @@ class ControllerCalls:
             text = self._wording.text(measure, instructions, self._director.now_ns)
         else:
             said, is_correction = measure.call.said, measure.is_correction
+            if measure.call.scripted is None:
+                said = speak_instruction(callsign, instructions, self._context.radio.phraseology)
             text = self._answers.again(callsign, unit, said, is_correction=is_correction)
         commands = tuple(self._commands(callsign, measure, frequency_khz, instructions))
         call = RadioCall(name, frequency_khz, unit, callsign, text, commands)

@@ -32,6 +32,8 @@ from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 
+MOST_CORRECTIONS = 2
+"""Number of times that a controller corrects the readback of one instruction."""
 ANSWERS_WITHIN_S = 5.0
 """Time in s in which a controller expects the answer to a call: an assumption."""
 ACTS_WITHIN_S = 10.0
@@ -98,8 +100,17 @@ class Controllers:
 
     def heard(self, call: RadioCall, unit: str, text: str) -> None:
         """Take in a call of an actor as a unit has heard it."""
-        if self._stations.is_actor(call.speaker):
-            self._strips.heard(call, unit, text)
+        if not self._stations.is_actor(call.speaker):
+            return
+        is_wrong, told = self._strips.heard(call, unit, text), call.in_reply_to
+        position = self._positions.get(unit)
+        if position is None or told is None or not is_wrong:
+            return
+        corrections = position.corrections.get(told.id, MOST_CORRECTIONS)
+        if corrections < MOST_CORRECTIONS:
+            repetition = Repetition(call.speaker, told, is_correction=True)
+            position.misread.append(repetition)
+            self._speak(position)
 
     def contact(self, callsign: str) -> Contact | None:
         """Return the unit that works an actor, and on which frequency; None if there is none."""
@@ -188,6 +199,9 @@ class Controllers:
         """Make the most urgent call that is still to be made, if the controller is not speaking."""
         if position.speaking is not None or self._seats.has_person(position.unit):
             return
+        if position.misread:
+            self._correct(position, position.misread.pop(0))
+            return
         for alert in sorted(self._shown.values(), key=lambda each: each.urgency):
             call = None
             if alert.advisory.id in position.attended:
@@ -196,6 +210,20 @@ class Controllers:
                 position.speaking = call
                 self._speakers.say(call)
                 return
+
+    def _correct(self, position: Position, misread: Repetition) -> None:
+        """Say an own call again that was read back wrongly."""
+        contact = Contact(position.unit, misread.call.frequency_khz)
+        times = position.corrections[misread.call.id] + 1
+        call = self._calls.call(self._name(position), misread, contact)
+        position.corrections[call.id] = times
+        self._event("controller_reacts", position.unit, f"{misread.callsign}: corrects a readback")
+        position.speaking = call
+        self._speakers.say(call)
+
+    def _name(self, position: Position) -> str:
+        position.calls += 1
+        return f"controller.{key_chunk(position.unit)}.{position.calls}"
 
     def _calls_about(self, position: Position, advisory: Advisory) -> Iterator[RadioCall]:
         """Yield the calls that are still to be made because of an advisory."""
@@ -237,22 +265,26 @@ class Controllers:
         position.said[told] = instructions
         if is_told:
             return None
-        position.calls += 1
-        name = f"controller.{key_chunk(position.unit)}.{position.calls}"
         does = ", ".join(action.replace("_", " ") for action in actions)
         self._event("controller_reacts", position.unit, f"{callsign}: {does} ({advisory.id})")
-        return self._calls.call(name, measure, contact)
+        call = self._calls.call(self._name(position), measure, contact)
+        position.corrections[call.id] = 0
+        return call
 
     def _is_settled(self, advisory: Advisory, callsign: str) -> bool:
         """Return whether a call need not be confirmed now.
 
-        Something is more urgent, or other instructions came after it.
+        Something is more urgent, or the controller has heard it read back as it was, or has given
+        other instructions since.
         """
         if any(each.advisory.severity.rank >= FOLLOWED_FROM.rank for each in self._shown.values()):
             return True
         strip, said = self._strips.of(callsign), self._speakers.said
         calls = [said[name] for name in advisory.evidence.radio_ids if name in said]
         given = [call for call in calls if call in strip.instructions]
+        answered = [call.in_reply_to for call in calls if call.in_reply_to is not None]
+        if any(call.id in strip.read_back for call in (*given, *answered)):
+            return True
         return bool(given) and strip.instructions[-1] not in given
 
     def _is_told(

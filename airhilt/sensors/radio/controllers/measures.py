@@ -26,10 +26,12 @@ from airhilt.phraseology import Action
 from airhilt.sensors.radio.controllers.displays import Displays, Target
 from airhilt.sensors.radio.controllers.strips import DEPARTING, ENTERING, LANDING, Strips
 from airhilt.sensors.radio.radio_call import RadioCall
-from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
+from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
 
 ROLLING_M_S = 30.0 * KNOT
 """Ground speed in m/s from which somebody on a runway is not taxiing: an assumption."""
+CLIMBING_M_S = 500.0 * FOOT_PER_MINUTE
+"""Vertical speed in m/s from which somebody climbs for sure: an assumption."""
 LEVEL_FT = 1000.0
 """Distance of cruising levels (ICAO Annex 2, appendix 3), in ft."""
 USUAL_RATE_FPM = 1500.0
@@ -132,18 +134,22 @@ class Judgement:
         return loss_s is not None and loss_s <= within_s
 
     def _recommended(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
-        """Yield what an advisory recommends, without a halt of somebody in the way.
+        """Yield what an advisory recommends, as far as it makes sense by the displays.
 
         Who is on the runway already is to leave it, not to stop there, once the user of the runway
-        is told to keep off.
+        is told to keep off. Who climbs away goes around already.
         """
         keep_off = any(
             isinstance(each, GoAround | CancelTakeoff) for each in advisory.recommendations.values()
         )
         for callsign, action in advisory.recommendations.items():
             target = self._displays.target(callsign, now_ns)
-            is_on = target is not None and self._displays.runway_of(target) is not None
-            if not (isinstance(action, HoldPosition) and is_on and keep_off):
+            if target is not None and isinstance(action, GoAround):
+                is_done = target.vertical_m_s > CLIMBING_M_S
+            else:
+                is_on = target is not None and self._displays.runway_of(target) is not None
+                is_done = isinstance(action, HoldPosition) and is_on and keep_off
+            if not is_done:
                 yield callsign, action
 
     # --- what was read back wrongly ---------------------------------------------------------

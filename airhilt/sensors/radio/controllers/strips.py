@@ -78,27 +78,26 @@ class Strips:
             if each.action in RUNWAY_USES and not each.is_conditional:
                 strip.runway_use, strip.runway = each.action, each.runway or strip.runway
 
-    def heard(self, call: RadioCall, unit: str, text: str) -> None:
-        """Note a call of an actor that a unit has heard, as it heard it."""
+    def heard(self, call: RadioCall, unit: str, text: str) -> bool:
+        """Note a call of an actor as a unit has heard it; return whether it is a wrong readback."""
         strip = self.of(call.speaker)
         strip.contact = Contact(unit, call.frequency_khz)
-        told = call.in_reply_to
-        is_answer = told is not None and (told.speaker, told.addressed) == (unit, call.speaker)
-        if told is not None and is_answer and self._reads_back(told, text):
-            strip.read_back.add(told.id)
         said = " ".join(words(text))
         if "tcas ra" in said or "t c a s r a" in said:
             strip.follows_ra = True
         elif "clear of conflict" in said:
             strip.follows_ra = False
-
-    def _reads_back(self, call: RadioCall, text: str) -> bool:
-        """Return whether words read some of a call back, and nothing of it otherwise."""
-        parse = self._stations.listener(call.frequency_khz).parse
-        meant = parse(call.said).instructions
+        told = call.in_reply_to
+        if told is None or (told.speaker, told.addressed) != (unit, call.speaker):
+            return False
+        parse = self._stations.listener(told.frequency_khz).parse
+        meant = parse(told.said).instructions
         actions = {each.action for each in meant}
         read = [each for each in parse(text).instructions if each.action in actions]
-        return bool(read) and all(any(agree(one, other) for other in meant) for one in read)
+        is_right = all(any(agree(one, other) for other in meant) for one in read)
+        if read and is_right:
+            strip.read_back.add(told.id)
+        return not is_right
 
     def contact(self, callsign: str) -> Contact | None:
         """Return who works an actor: the unit of the last exchange.

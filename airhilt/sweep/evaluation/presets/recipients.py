@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
+from pydantic import JsonValue
+
 from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import REFERENCE, shipped_scenarios
@@ -46,7 +48,7 @@ def specifications(choice: Choice) -> Mapping[str, Specification]:
 def _sweeps(
     choice: Choice, name: str, scenarios: Sequence[str], settled: Mapping[str, bool]
 ) -> dict[str, Specification]:
-    shared = {"latency": "fixed", **settled}
+    shared: dict[str, JsonValue] = {"latency": "fixed", **settled}
     nobody = choice.specification(scenarios, {**shared, "assistant": NONE})
     told = choice.specification(
         scenarios, {**shared, "assistant": REFERENCE.name}, {"recipients": TOLD}
