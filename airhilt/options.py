@@ -34,7 +34,7 @@ from airhilt.engine_families import (
 from airhilt.engines import RENDERER_HELP, EngineFamily
 from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.host.library import nearest
-from airhilt.messages import Modality, RadarKind
+from airhilt.messages import Modality, RadarKind, Told
 from airhilt.scenario.models import ResponseModelName, Topology
 from airhilt.scenario.models.scene import Visibility
 
@@ -141,6 +141,17 @@ class Options(BaseModel):
             "prints what it may hold.",
             "FILE",
             default="the assistant's own",
+            needs=("assistant",),
+        ),
+    ] = None
+    recipients: Annotated[
+        Told | None,
+        Flag(
+            "--recipients",
+            "Who is told of conflicts: crew (the crews and drivers concerned), controller, or "
+            "both.",
+            "WHO",
+            default="whom the assistant tells",
             needs=("assistant",),
         ),
     ] = None

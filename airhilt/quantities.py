@@ -67,6 +67,8 @@ DistanceNm = Annotated[Number, Field(ge=0.0, le=500.0)]
 """Distance in NM."""
 SnrDb = Annotated[Number, Field(ge=-30.0, le=60.0)]
 """Signal-to-noise ratio in dB."""
+FrequencyKhz = Annotated[Count, Field(ge=117_975, le=137_000)]
+"""Name of a channel of the aeronautical VHF band with 25 or 8.33 kHz spacing, in kHz."""
 
 FileName = Annotated[str, Field(min_length=1, max_length=200)]
 """Name that AIRHILT knows, or the path of a file, relative to what names it."""

@@ -16,6 +16,7 @@ from airhilt.engine_families import (
     WORDINGS,
 )
 from airhilt.errors import LanguageModelError, WorkerError
+from airhilt.messages import Told
 from airhilt.workers.protocol import Worker
 
 # Engines are imported where they are used: a run without speech or cameras starts without the
@@ -95,6 +96,7 @@ def decision_worker(
     *,
     wording: str = WORDINGS.default,
     configuration: Mapping[str, Any] | None = None,
+    told: Told | None = None,
     is_gated: bool = False,
     llm: LanguageModelSettings | None = None,
 ) -> Worker:
@@ -104,6 +106,8 @@ def decision_worker(
     ----------
     configuration
         Values of the configuration of the engine; None: the defaults.
+    told
+        Who is told of conflicts; None: whom the engine tells.
     llm
         Language model for an engine or a wording that asks one; None: there is none.
 
@@ -130,4 +134,4 @@ def decision_worker(
             )
         for part in asking:
             part.use(llm)
-    return DecisionWorker(*parts, is_gated=is_gated, name=name)
+    return DecisionWorker(*parts, told=told, is_gated=is_gated, name=name)

@@ -76,7 +76,8 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
             elif not getattr(options, need):
                 yield f"with {spelling}; expected only one of the two"
         elif options.assistant == NONE or (
-            options.assistant == EXTERNAL and name in ("wording", "llm", "assistant_config")
+            options.assistant == EXTERNAL
+            and name in ("wording", "llm", "assistant_config", "recipients")
         ):
             yield f"with {spelling} {options.assistant}; expected only one of the two"
 

@@ -128,11 +128,15 @@ def _assistant(
         )
     may_decide = has_decision or bool(programs)
     assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANTS.default)
-    if assistant == EXTERNAL and options.assistant_config is not None:
-        raise WorkerError(
-            "--assistant-config would do nothing: a worker or program of yours decides; expected "
-            "only one of the two"
-        )
+    for option, value in (
+        ("--assistant-config", options.assistant_config),
+        ("--recipients", options.recipients),
+    ):
+        if assistant == EXTERNAL and value is not None:
+            raise WorkerError(
+                f"{option} would do nothing: a worker or program of yours decides; expected only "
+                "one of the two"
+            )
     return assistant
 
 

@@ -56,6 +56,7 @@ def reference_workers(
                 assistant,
                 wording=options.wording,
                 configuration=options.assistant_config,
+                told=options.recipients,
                 is_gated=radio.topology == "gated_fusion",
                 llm=_language_model(options),
             )

@@ -188,7 +188,7 @@ class Simulation:
         self._latency_log = latency_log
         self._router = MessageRouter(bus, log)
         self._context = context = RunContext(setup, self._director, self._router, observer)
-        stations = Stations(setup.actors, setup.site, setup.scenario.radio.lines)
+        stations = Stations(setup.actors, setup.site, setup.scenario)
         self._seats = Seats(
             seat_states(setup, participants, stations), self._router.publish, self._director
         )

@@ -29,6 +29,7 @@ from airhilt.messages.advisories import (
     ModelExchange,
     Recommendation,
     Rejection,
+    Told,
     Turn,
 )
 from airhilt.messages.base import (

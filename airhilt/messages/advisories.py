@@ -113,6 +113,8 @@ AdvisoryKind = Literal[
 """Kind of conflict, or ``clarification`` of a call that was heard with too little confidence."""
 CONTROLLER = "ATC"
 """Recipient of the advisories to the controller."""
+Told = Literal["crew", "controller", "both"]
+"""Who is told of conflicts: the crews and drivers concerned, the controller, or both."""
 
 
 class Advisory(Message):
@@ -137,6 +139,11 @@ class Advisory(Message):
     traffic: tuple[str, ...] = Field(description="callsigns (or icao24) of those in conflict")
     message: str
     recommendation: Recommendation | None = None
+    recommendations: dict[str, Recommendation] = Field(
+        default_factory=dict,
+        description="to the controller: what is recommended to each aircraft and vehicle, by "
+        "callsign",
+    )
     evidence: Evidence
     t_ready_ns: Nanoseconds = Field(description="arrival of the last input that it rests on")
 

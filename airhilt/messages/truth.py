@@ -140,6 +140,8 @@ EventKind = Literal[
     "failure",
     "pilot_reacts",
     "no_response",
+    "controller_reacts",
+    "controller_silent",
     "worker_lost",
     "radio_lost",
     "cameras_lost",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from airhilt.phraseology.call import Instruction
 from airhilt.phraseology.numbers import Style, speak_digits, speak_group
@@ -28,8 +29,9 @@ from airhilt.phraseology.telephony import TELEPHONY
 
 __all__ = [
     "speak_abbreviated", "speak_altitude", "speak_callsign", "speak_frequency", "speak_heading",
-    "speak_instruction", "speak_pressure", "speak_readback", "speak_runway", "speak_say_again",
-    "speak_speed", "speak_taxiway", "speak_wind",
+    "speak_instruction", "speak_pressure", "speak_ra_report", "speak_readback", "speak_runway",
+    "speak_say_again", "speak_speed", "speak_taxiway", "speak_traffic", "speak_traffic_alert",
+    "speak_wind",
 ]  # fmt: skip
 
 _VEHICLES = {"PLOW": "snow plow", "FIRE": "fire truck"}
@@ -77,12 +79,52 @@ def speak_abbreviated(callsign: str, style: Style) -> str:
 
 
 def speak_instruction(
-    callsign: str, instructions: Instruction | Sequence[Instruction], style: Style
+    callsign: str,
+    instructions: Instruction | Sequence[Instruction],
+    style: Style,
+    reason: str = "",
 ) -> str:
-    """Return a call with instructions for an actor."""
+    """Return a call with instructions for an actor, and their reason in a few words."""
     several = (instructions,) if isinstance(instructions, Instruction) else instructions
     parts = [phrase_of(each, style, readback=False) for each in several]
-    return _sentence(speak_callsign(callsign, style), *parts)
+    return _sentence(speak_callsign(callsign, style), *parts, *([reason] if reason else []))
+
+
+def speak_traffic(clock: int, distance_nm: int, style: Style) -> str:
+    """Return where traffic is, as a hand of the clock and a distance (7110.65, 2-1-21 a).
+
+    Ten, eleven and twelve are not said digit by digit (Annex 10 volume II, 5.2.1.4.1).
+    """
+    hand = speak_digits(str(clock), style) if clock < 10 else speak_group(clock, style)
+    miles = "mile" if distance_nm == 1 else "miles"
+    if distance_nm < 1:
+        return f"{hand} o'clock, less than one mile"
+    return f"{hand} o'clock, {speak_digits(str(distance_nm), style)} {miles}"
+
+
+def speak_traffic_alert(
+    callsign: str, instructions: Sequence[Instruction], traffic: str, style: Style
+) -> str:
+    """Return an alert of traffic, with what to do at once; ``traffic`` is of `speak_traffic`.
+
+    With an immediate instruction it says "immediately". FAA: Order JO 7110.65, 2-1-6 b, without
+    "advise you": it is an instruction. ICAO: Doc 4444,
+    12.4.1.8.
+    """
+    who = speak_callsign(callsign, style)
+    calm = [replace(each, immediate=False) for each in instructions]
+    action = " and ".join(phrase_of(each, style, readback=False) for each in calm)
+    if any(each.immediate for each in instructions):
+        action = f"{action} immediately"
+    if style == "faa":
+        return _sentence("traffic alert", who, *([f"traffic {traffic}"] if traffic else []), action)
+    return _sentence(who, action, f"to avoid traffic at {traffic}" if traffic else "traffic alert")
+
+
+def speak_ra_report(callsign: str, style: Style, *, is_over: bool) -> str:
+    """Return a crew's report of a resolution advisory, or of its end (Doc 4444, 12.3.1.2)."""
+    who = speak_callsign(callsign, style)
+    return f"{who}, clear of conflict." if is_over else f"{who}, TCAS RA."
 
 
 def speak_readback(

@@ -77,6 +77,11 @@ def _alone(words: str, icao: str | None = None, readback: str | None = None) -> 
     return speak
 
 
+def _stop(instruction: Instruction, style: Style, readback: bool) -> str:
+    del readback
+    return "stop immediately" if instruction.immediate or style == "icao" else "stop"
+
+
 def _hold_short(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
     point = _runway(instruction, style) or (
@@ -281,7 +286,7 @@ _FORMS: dict[Action, Speak] = {
     "continue_approach": _alone("continue approach"),
     "vacate": _vacate,
     "taxi": _taxi,
-    "stop": _alone("stop", icao="stop immediately"),
+    "stop": _stop,
     "push_back": _alone("push back approved"),
     "start_up": _alone("start up approved"),
     "follow": _about("follow"),

@@ -55,6 +55,29 @@ def _answered(scenario: Scenario) -> dict[str, str]:
     return found
 
 
+def controlling_units(scenario: Scenario) -> dict[str, tuple[int, ...]]:
+    """Return the units with a controller, and the frequencies of each in kHz.
+
+    They are the controller of the radio, which comes first, those that the scenario declares, and
+    every other unit that speaks with an actor in the script on a frequency of its own.
+    """
+    actors = {actor.callsign for actor in scenario.actors}
+    spoken: dict[str, dict[int, None]] = {}
+    for line in scenario.radio.lines:
+        for unit, other in ((line.speaker, line.to), (line.to, line.speaker)):
+            if unit is not None and unit not in actors and other in {*actors, None}:
+                spoken.setdefault(unit, {})[line.frequency_khz] = None
+    found = {scenario.radio.controller: spoken.get(scenario.radio.controller, {})}
+    for unit, controller in scenario.controllers.items():
+        on = dict.fromkeys(controller.frequencies_khz)
+        found[unit] = found.get(unit, spoken.get(unit, {})) | on
+    for unit, on in spoken.items():
+        taken = {frequency_khz for each in found.values() for frequency_khz in each}
+        if unit not in found and taken.isdisjoint(on):
+            found[unit] = on
+    return {unit: tuple(on) for unit, on in found.items()}
+
+
 def unsayable_lines(scenario: Scenario) -> Set[str]:
     """Return the ids of the lines whose condition can never come true.
 

@@ -88,8 +88,10 @@ def test_run_json_holds_the_configuration_of_the_assistant_and_a_replay_has_it(
 def test_a_configuration_of_a_worker_of_the_user_is_refused(
     encounter: Scenario, tmp_path: Path
 ) -> None:
-    with pytest.raises(AirhiltError, match="--assistant-config would do nothing: a worker"):
-        airhilt.run(encounter, out=tmp_path / "run", assistant_config={}, workers=[reference()])
+    for option, given in (("assistant-config", {}), ("recipients", "crew")):
+        options: dict[str, Any] = {option.replace("-", "_"): given}
+        with pytest.raises(AirhiltError, match=f"--{option} would do nothing: a worker"):
+            airhilt.run(encounter, out=tmp_path / "run", workers=[reference()], **options)
 
 
 @pytest.mark.parametrize(

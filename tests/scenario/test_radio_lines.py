@@ -147,3 +147,27 @@ def test_a_profile_of_the_radio_is_one_of_those_that_there_are() -> None:
     for profile in profiles:
         document["radio"]["profile"] = profile
         assert load_text(json.dumps(document), "test.json").radio.profile == profile
+
+
+def test_a_controller_is_of_a_unit_with_a_frequency_that_is_its_own(
+    subtests: pytest.Subtests,
+) -> None:
+    table = [
+        ({"AAL123": {}}, "controllers/AAL123: it is an actor; expected the name of a unit"),
+        ({"Washington Towr": {}}, "controllers/Washington Towr: no unit 'Washington Towr'; did"),
+        (
+            {"Approach": {"frequencies_khz": [119_100]}},
+            "controllers/Approach: it is on 119100 kHz, and so is 'Washington Tower'; expected one",
+        ),
+        (
+            {"Approach": {"frequencies_khz": [124_720]}},
+            "controllers/Approach/frequencies_khz/0: 124720 kHz is no channel",
+        ),
+        ({"Washington Tower": {"compliance": 1.5}}, "controllers/Washington Tower/compliance"),
+        ({"Washington Tower": {"acts_on": ["weather"]}}, "controllers/Washington Tower/acts_on/0"),
+    ]
+    for controllers, expected in table:
+        with subtests.test(str(controllers)):
+            assert expected in complaint(DOCUMENT | {"controllers": controllers})
+    document = DOCUMENT | {"controllers": {"Approach": {"frequencies_khz": [124_700]}}}
+    assert load_text(json.dumps(document), "test.json").controllers["Approach"].compliance == 1.0

@@ -62,9 +62,14 @@ class World:
         hearing: HearingModel | None = None,
         seats: Collection[str] = (),
         backend: RadioBackend | None = None,
+        controllers: dict[str, Any] | None = None,
+        strangers: Collection[str] = (),
         **radio: Any,
     ) -> None:
         document = load("s02a_nominal").model_dump(mode="json")
+        document["controllers"] = controllers or {}
+        for actor in document["actors"]:
+            actor["on_roster"] = actor["callsign"] not in strangers
         document["radio"] |= {"lines": list(lines), **radio}
         document |= {"failures": list(failures), "end_when": [], "conflict": None}
         document["perturbations"] = []
@@ -85,7 +90,7 @@ class World:
             )
             for actor in self.scenario.actors
         }
-        stations = Stations(self.actors, ScenarioSite.of(self.scenario), self.scenario.radio.lines)
+        stations = Stations(self.actors, ScenarioSite.of(self.scenario), self.scenario)
         self.seats = Seats(
             (
                 state_of(name, frequencies_khz=tuned, tuned_khz=tuned)

@@ -19,7 +19,7 @@ from airhilt.sweep.engine import SweepObserver, SweepResult
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
-from airhilt.sweep.evaluation.presets import full, paper
+from airhilt.sweep.evaluation.presets import full, paper, recipients
 from airhilt.sweep.evaluation.scores import (
     Baselines,
     avoided,
@@ -225,6 +225,31 @@ def test_what_is_not_avoided_is_told_by_the_worst_that_came_of_it() -> None:
     assert found["none"] == "collision 4"
     assert found["reference"] == "avoided 1, collision 1, incursion B 1, loss of separation 1"
     assert found["paper"] == "-"
+
+
+def test_who_is_told_is_compared_over_the_same_runs() -> None:
+    every = recipients.specifications(Choice(20, {}))
+    told = {name: listed(one.axes["recipients"]) for name, one in every.items() if one.axes}
+    assert told == dict.fromkeys(("without_cameras", "with_cameras"), recipients.TOLD)
+    assert len(listed(every["without_cameras"].seeds)) == 20
+    assert len(listed(every["with_cameras"].seeds)) == 3
+    assert every["without_cameras"].options["cameras"] is False
+    assert recipients.specifications(NO_CAMERAS).keys() == {
+        "without_cameras", "without_cameras_nobody",
+    }  # fmt: skip
+
+    lost = [row(avoided=False, lost=True, collision=True)]
+    rows = [row(recipients="both"), row(recipients="crew", avoided=False, collision=True)]
+    results = Results(NO_CAMERAS, {"without_cameras": rows, "without_cameras_nobody": lost})
+    families, harms = recipients.tables(results)
+    assert text(cells(families, "all", "both")["avoided"]).startswith("1 of 1")
+    assert text(cells(families, "all", "crew")["avoided"]).startswith("0 of 1")
+    found = cells(harms, "s01a_one")
+    assert (found["nobody"], found["crew"], found["both"]) == (
+        "collision 1",
+        "collision 1",
+        "avoided 1",
+    )
 
 
 def test_severity_modalities_topologies_and_crews_have_tables() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from pydantic import TypeAdapter
@@ -19,6 +20,7 @@ from airhilt.assistant.wording.engine import AdvisoryWording, words
 from airhilt.errors import WorkerError
 from airhilt.messages import (
     ADVISORY_CALL,
+    CONTROLLER,
     AdsbReport,
     Advisory,
     Briefing,
@@ -30,9 +32,11 @@ from airhilt.messages import (
     ModelExchange,
     RadarInfo,
     RadarPlot,
+    Recommendation,
     Status,
     SurfaceTrack,
     TcasReply,
+    Told,
     Transcript,
     Transmission,
     WorkerDescription,
@@ -62,6 +66,8 @@ class DecisionWorker:
 
     Parameters
     ----------
+    told
+        Who is told of conflicts; None: whom the engine tells.
     is_gated
         True to tell nothing while a transcript is to come: the topology ``gated_fusion``.
 
@@ -76,6 +82,7 @@ class DecisionWorker:
         engine: DecisionEngine,
         wording: AdvisoryWording,
         *,
+        told: Told | None = None,
         is_gated: bool = False,
         name: str = "decision",
     ) -> None:
@@ -88,6 +95,7 @@ class DecisionWorker:
         self._name = name
         self._engine = engine
         self._wording = wording
+        self._told = told
         self._gate = FusionGate() if is_gated else None
         read: dict[str, Any] = {key: model for model, key in KEYS.items() if model in engine.reads}
         if isinstance(engine, NamesInputs):
@@ -123,10 +131,11 @@ class DecisionWorker:
                 return Step((), wake_ns=opens_ns)
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
         decision = self._engine.decide(t_ns)
-        worded = words(self._wording, decision.alerts)
+        alerts = [self._addressed(alert) for alert in decision.alerts]
+        worded = words(self._wording, alerts)
         advisories = (
             self._advisory(alert, recipient, worded.messages[alert.id, recipient], t_ready_ns)
-            for alert in decision.alerts
+            for alert in alerts
             for recipient in alert.recipients
         )
         told = [
@@ -159,6 +168,21 @@ class DecisionWorker:
             named = exchange.model_copy(update={"advisories": ids})
             yield Output(f"llm/{self._name}", named.model_dump_json().encode())
 
+    def _addressed(self, alert: Alert) -> Alert:
+        """Return an alert to those who are told of conflicts; they may be none."""
+        crews = tuple(each for each in alert.recipients if each != CONTROLLER)
+        match self._told:
+            case None:
+                return alert
+            case "crew":
+                recipients = crews
+            case "controller":
+                recipients = (CONTROLLER,)
+            case "both":
+                recipients = (*crews, CONTROLLER)
+        messages = {each: text for each, text in alert.messages.items() if each in recipients}
+        return replace(alert, recipients=recipients, messages=messages)
+
     def _advisory(self, alert: Alert, recipient: str, message: str, t_ready_ns: int) -> Advisory:
         return Advisory(
             id=f"{self._name}-{alert.id}",
@@ -171,6 +195,13 @@ class DecisionWorker:
             traffic=alert.traffic,
             message=message,
             recommendation=alert.recommendations.get(recipient),
+            recommendations=_of_traffic(alert) if recipient == CONTROLLER else {},
             evidence=alert.evidence,
             t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
         )
+
+
+def _of_traffic(alert: Alert) -> dict[str, Recommendation]:
+    """Return what is recommended to aircraft and vehicles, which the controller may pass on."""
+    recommended = alert.recommendations.items()
+    return {callsign: each for callsign, each in recommended if callsign != CONTROLLER}

@@ -46,7 +46,7 @@ Examples:
     required=True,
     metavar="NAME",
     help="paper: runway overlaps, with the numbers of the AIRHILT paper beside ours; full: all "
-    "families and assistants, modalities, topologies and response models.",
+    "families and assistants, modalities, topologies and response models; recipients: who is told.",
 )
 @click.option(
     "--seeds",

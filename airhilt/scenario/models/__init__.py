@@ -39,6 +39,7 @@ from airhilt.scenario.models.conditions import (
     ThresholdWithin,
     TimeReached,
 )
+from airhilt.scenario.models.controllers import Alerting, Controller
 from airhilt.scenario.models.failures import (
     Blocked,
     CallsignConfused,

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from airhilt.commands import Command
-from airhilt.quantities import Count, Flag, Name, Number, Share, SnrDb, TimeS
+from airhilt.quantities import Flag, FrequencyKhz, Name, Number, Share, SnrDb, TimeS
 from airhilt.scenario import radio_profiles as profiles
 from airhilt.scenario.models.base import MOST_COMMANDS, Callsign, Identifier, Model
 from airhilt.scenario.models.conditions import Condition
@@ -63,9 +63,7 @@ class RadioLine(ReceptionSettings):
     )
     speaker: Name = Field(description="a callsign, or a unit's name")
     to: Name | None = Field(default=None, description="addressed callsign or unit")
-    frequency_khz: Count = Field(
-        ge=117_975, le=137_000, description="name of a channel with 25 or 8.33 kHz spacing"
-    )
+    frequency_khz: FrequencyKhz = Field(description="name of a channel with 25 or 8.33 kHz spacing")
     text: str = Field(min_length=1, max_length=500)
     commands: tuple[ScriptedCommand, ...] = Field(default=(), max_length=MOST_COMMANDS)
     answers: Identifier | None = Field(

@@ -10,6 +10,7 @@ from airhilt.quantities import LONGEST_RUN_S, FileName, Name, Number
 from airhilt.scenario.models.actors import ActorSpec, AircraftSpec, WildlifeSpec
 from airhilt.scenario.models.base import Callsign, Identifier, Model
 from airhilt.scenario.models.conditions import Condition, Pair
+from airhilt.scenario.models.controllers import Controller
 from airhilt.scenario.models.failures import Failure
 from airhilt.scenario.models.radio import Radio
 from airhilt.scenario.models.responses import (
@@ -106,6 +107,12 @@ class Scenario(Model):
         "your own",
     )
     radio: Radio = Radio()
+    controllers: dict[Name, Controller] = Field(
+        default={},
+        max_length=100,
+        description="simulated controllers by the names of their units; the unit of "
+        "`radio.controller`, and every other unit of the script, has the default one",
+    )
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = Field(default=(), max_length=100)
     radars: tuple[Radar, ...] = Field(default=(), max_length=20)

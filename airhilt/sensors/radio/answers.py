@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from airhilt.phraseology import Instruction
+from airhilt.phraseology import Instruction, parse_call
 from airhilt.phraseology.say import speak_callsign, speak_readback, speak_say_again
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import RadioCall
@@ -34,9 +34,19 @@ class Answers:
             return f"{speak_callsign(asked, self._style)}, say again."
         return "Say again."
 
-    def negative(self, callsign: str, said: str) -> str:
-        """Return the correction of a wrong readback: the call again, marked as such.
+    def again(self, callsign: str, unit: str, said: str, *, is_correction: bool) -> str:
+        """Return what a unit said, once more: it was not read back, or otherwise.
 
         "Negative" and "I say again" are those of ICAO Annex 10 volume II, 5.2.1.5.8.
         """
-        return f"{speak_callsign(callsign, self._style)}, negative. I say again. {said}"
+        clauses = said.split(", ")
+        while len(clauses) > 1 and _only_addresses(clauses[0], callsign, unit):
+            clauses.pop(0)
+        begin = "negative, I say again" if is_correction else "I say again"
+        return f"{speak_callsign(callsign, self._style)}, {begin}, {', '.join(clauses)}"
+
+
+def _only_addresses(clause: str, callsign: str, unit: str) -> bool:
+    """Return whether a clause of a call of a unit only says for whom it is, and from whom."""
+    parsed = parse_call(clause, (callsign,))
+    return clause == unit or (parsed.callsign == callsign and not parsed.instructions)

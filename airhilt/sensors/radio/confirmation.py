@@ -35,28 +35,37 @@ class Confirmations:
         self._times: dict[str, int] = {}
 
     def take(self, advisory: Advisory) -> None:
-        """Let the recipient of an advisory confirm a call, if that is recommended."""
-        recommended, key = advisory.recommendation, (advisory.id, advisory.recipient)
-        if not isinstance(recommended, Confirm) or not advisory.active or key in self._asked:
-            return
-        call = self._call(advisory, recommended.callsign)
-        asked = None if call is None else self._asked_of(call, advisory.recipient)
-        if call is None or asked is None:
-            return
-        self._asked.add(key)
-        self._director.after(CONFIRM_AFTER_S, partial(self._confirm, call, asked))
+        """Let the crew or driver that an advisory asks to confirm a call do so."""
+        if isinstance(advisory.recommendation, Confirm) and advisory.active:
+            self._director.after(CONFIRM_AFTER_S, partial(self._confirm, advisory))
 
-    def _confirm(self, call: RadioCall, asked: str) -> None:
-        """Let whoever is asked speak, unless the call is about to be made again anyway."""
-        if call.is_due_again:
-            return
+    def _confirm(self, advisory: Advisory) -> None:
+        call = self.confirmation(advisory, advisory.recipient)
+        if call is not None:
+            self._speakers.say(call)
+
+    def confirmation(self, advisory: Advisory, name: str) -> RadioCall | None:
+        """Return what an actor or a unit says to confirm the call that an advisory asks to confirm.
+
+        None if it has done so, or has no part in the call, or the call is made again anyway. Nobody
+        confirms a call twice, whatever becomes of its advisories.
+        """
+        recommended, key = advisory.recommendation, (advisory.id, name)
+        if not isinstance(recommended, Confirm) or key in self._asked:
+            return None
+        call = self._call(advisory, recommended.callsign)
+        if call is None or name not in (call.speaker, call.addressed):
+            return None
+        self._asked.add(key)
+        if call.is_due_again or call.id in self._times:
+            return None
         has_taken = call.addressed is None or call.addressed in call.taken_by
-        if asked != call.speaker:
-            self._speakers.say(self._question(call, asked, self._again(call)))
-        elif has_taken:
-            self._speakers.say(self._again(call))
-        else:
-            self._policy.call_again(call)
+        if name != call.speaker:
+            return self._question(call, name, self._again(call))
+        if has_taken:
+            return self._again(call)
+        self._policy.call_again(call)
+        return None
 
     def _call(self, advisory: Advisory, callsign: str) -> RadioCall | None:
         """Return the call in doubt: that of the evidence, or else the last of the callsign."""
@@ -65,13 +74,6 @@ class Confirmations:
         of_callsign = [each for each in said.values() if callsign in (each.speaker, each.addressed)]
         calls = of_evidence or of_callsign
         return self._originals.get(calls[-1].id, calls[-1]) if calls else None
-
-    def _asked_of(self, call: RadioCall, recipient: str) -> str | None:
-        """Return which side of a call a recipient is: an actor itself, or the unit."""
-        if self._stations.is_actor(recipient):
-            return recipient
-        sides = (call.speaker, call.addressed)
-        return next((name for name in sides if name and not self._stations.is_actor(name)), None)
 
     def _again(self, call: RadioCall) -> RadioCall:
         """Return a call as it is said again, with its readback."""

@@ -44,7 +44,8 @@ class ControllerCheck:
         """Let a controller repeat what was read back wrongly, and the crew do that instead."""
         crew, scripted = readback.speaker, readback.scripted
         readback.withdrawn_for.add(crew)
-        correction = readback.reply("correction", unit, self._answers.negative(crew, right.text))
+        words = self._answers.again(crew, unit, right.text, is_correction=True)
+        correction = readback.reply("correction", unit, words)
         correction.commands = self._commands_of_correction(readback, right)
         if scripted is None:
             text = self._answers.readback_of(readback, right.text, crew)

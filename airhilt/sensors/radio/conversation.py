@@ -12,6 +12,7 @@ from functools import partial
 from airhilt.messages import (
     Advisory,
     AgreeToUses,
+    EquipmentAlert,
     LeaveSeat,
     Message,
     PressToTalk,
@@ -27,12 +28,14 @@ from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
 from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.controllers import Controllers
 from airhilt.sensors.radio.frequency_arbiter import GAP_S, FrequencyArbiter
 from airhilt.sensors.radio.hearing import HearingModel
 from airhilt.sensors.radio.listeners import Listeners
 from airhilt.sensors.radio.microphones import Microphones
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.person_calls import PersonCalls, RecognisedCall
+from airhilt.sensors.radio.ra_reports import RaReports
 from airhilt.sensors.radio.radio_call import Speakers, calls_of
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
@@ -74,8 +77,12 @@ class RadioConversation:
         self._compliance = Compliance(context)
         policy = ReadbackPolicy(context, self._calls, self._speakers)
         hearing = hearing or HearingModel(context.seed)
-        self._listeners = Listeners(context, hearing, transmissions, self._compliance, policy)
         self._confirmations = Confirmations(context, self._speakers, policy)
+        self._controllers = Controllers(context, self._speakers, self._confirmations)
+        self._ra_reports = RaReports(context, self._speakers, self._controllers.contact)
+        self._listeners = Listeners(
+            context, hearing, transmissions, self._compliance, policy, self._controllers.heard
+        )
         self._advisories: AdvisoryCalls | None = None
         if advisory_channel is not None:
             callsigns = context.scenario.callsigns
@@ -102,8 +109,11 @@ class RadioConversation:
                 if recognised is not None:
                     self._recognised(recognised)
                 self._listeners.take(message)
-            case Advisory():
+            case Advisory(recipient=recipient) if self._stations.is_actor(recipient):
                 self._confirmations.take(message)
+            case EquipmentAlert():
+                self._ra_reports.take(message)
+        self._controllers.take(key, message)
 
     def _act(self, speaker: str, act: SeatAct) -> None:
         """Take in what the person at a seat does."""
@@ -186,6 +196,7 @@ class RadioConversation:
             return
         if call.times_said == 1:
             self._compliance.carry_out(call, call.speaker)
+        self._controllers.ended(call)
         self._listeners.let_hear(call, on_air)
 
     def _recognised(self, recognised: RecognisedCall) -> None:

@@ -47,6 +47,7 @@ class Listeners:
         transmissions: Transmissions,
         compliance: Compliance,
         policy: ReadbackPolicy,
+        heard_by_unit: Callable[[RadioCall, str, str], None],
     ) -> None:
         self._context = context
         self._radio = context.radio
@@ -56,6 +57,7 @@ class Listeners:
         self._transmissions = transmissions
         self._compliance = compliance
         self._policy = policy
+        self._heard_by_unit = heard_by_unit
         self._waiting: dict[str, list[Read]] = {}
         """Listeners that wait for the transcript of a transmission, by its id."""
 
@@ -217,6 +219,8 @@ class Listeners:
         source: Literal["ear", "transcript"] = "ear",
     ) -> None:
         self._publish_truth(said, listener, understanding, text, source)
+        if text and not self._stations.is_actor(listener):
+            self._heard_by_unit(call, listener, text)
         if understanding.kind == "as_said":
             self._compliance.carry_out(call, listener)
         elif understanding.kind == "otherwise" and self._stations.is_actor(listener):

@@ -66,7 +66,7 @@ class ReadbackPolicy:
     ) -> None:
         """Go on with what follows from a call once a recipient has taken it."""
         call.take(listener)
-        if self._radio.readbacks == "generated" or call.is_of_person:
+        if self._radio.readbacks == "generated" or call.scripted is None or call.is_of_person:
             self._read_back(call, said, listener, understanding)
         if listener != call.addressed:
             return

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
-from airhilt.scenario.models import RadioLine
+from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.on_air import BackgroundNoise
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.units import DEGREE, FOOT
@@ -21,15 +21,15 @@ class Stations:
     """Actors and units with their radios.
 
     An actor or a unit is on a frequency if a line of the script there is spoken by it, is
-    addressed to it, or has a command for it.
+    addressed to it, or has a command for it, and a unit also on those of its controller. Who is
+    expected and has no line is on the first frequency of the script.
     """
 
-    def __init__(
-        self, actors: Mapping[str, Actor], site: ScenarioSite, lines: Iterable[RadioLine]
-    ) -> None:
+    def __init__(self, actors: Mapping[str, Actor], site: ScenarioSite, scenario: Scenario) -> None:
         self._actors = actors
         self._ground_m = site.ground_m
-        self._variation_deg = site.variation_deg or 0.0
+        self.variation_deg = site.variation_deg or 0.0
+        """Magnetic variation of the place, in degrees, positive east."""
         centre = site.centre
         self._site = FixedSite(
             centre.lat_deg * DEGREE,
@@ -37,11 +37,17 @@ class Stations:
             altitude_m=site.ground_m + GROUND_ANTENNA_M,
         )
         self._on: dict[int, dict[str, None]] = {}
-        for line in lines:
+        for line in scenario.radio.lines:
             named = (line.speaker, line.to, *(scripted.actor for scripted in line.commands))
             self._on.setdefault(line.frequency_khz, {}).update(
                 dict.fromkeys(name for name in named if name is not None)
             )
+        for unit, controller in scenario.controllers.items():
+            for frequency_khz in controller.frequencies_khz:
+                self._on.setdefault(frequency_khz, {})[unit] = None
+        silent = [name for name in scenario.roster if not self.frequencies_of(name)]
+        for on_first in list(self._on.values())[:1]:
+            on_first.update(dict.fromkeys(silent))
 
     def on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the names of the actors and units on a frequency."""
@@ -49,7 +55,7 @@ class Stations:
 
     def listener(self, frequency_khz: int) -> Listener:
         """Return who understands the calls on a frequency, with the callsigns there."""
-        return Listener(self.actors_on(frequency_khz), variation_deg=self._variation_deg)
+        return Listener(self.actors_on(frequency_khz), variation_deg=self.variation_deg)
 
     def actors_on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the callsigns of the actors on a frequency."""

@@ -115,6 +115,8 @@ class RunwayOperations:
         match command:
             case LandCommand():
                 self._land(command)
+            case GoAroundCommand() if self._aircraft.phase == "go_around":
+                pass  # It does already.
             case GoAroundCommand(climb_to_ft=altitude):
                 self._break_off(altitude * FOOT)
             case SideStepCommand(runway=runway):

@@ -19,7 +19,12 @@ from airhilt.world.checks.names import (
     shared_names,
 )
 from airhilt.world.checks.places import missing_ways, unknown_places
-from airhilt.world.checks.radio import idle_failures, impossible_lines, unsaid_lines
+from airhilt.world.checks.radio import (
+    idle_failures,
+    impossible_controllers,
+    impossible_lines,
+    unsaid_lines,
+)
 from airhilt.world.site import ScenarioSite
 
 __all__ = ["check"]
@@ -65,6 +70,7 @@ def _problems(scenario: Scenario) -> Iterator[Problem]:
     yield from unknown_places(scenario, site)
     yield from dangling_references(scenario)
     yield from impossible_lines(scenario)
+    yield from impossible_controllers(scenario)
     yield from misdirected_commands(scenario)
     if site.layout is not None:
         yield from surface_wind(scenario)

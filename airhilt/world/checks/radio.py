@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from airhilt.errors import AirhiltError
 from airhilt.host import library
 from airhilt.messages import ASSISTANT
-from airhilt.scenario.conversation import unsayable_lines
+from airhilt.scenario.conversation import controlling_units, unsayable_lines
 from airhilt.scenario.models import (
     AircraftSpec,
     CallsignConfused,
@@ -22,7 +22,9 @@ from airhilt.scenario.problems import Problem, unknown
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 
 GENERATED_ID = re.compile(
-    r"^stuck-microphone\.|\.(?:readback|correction|(?:repeat|say-again)-[0-9]+)$", re.IGNORECASE
+    r"^(?:stuck-microphone|controller|ra)\.|"
+    r"\.(?:readback|correction|(?:repeat|say-again|confirmation)-[0-9]+)$",
+    re.IGNORECASE,
 )
 """Beginnings and endings of the ids of calls that are not in the script (docs/radio.md)."""
 CHANNELS_KHZ = tuple(name for name in range(118_000, 136_991, 5) if name % 25 < 20)
@@ -40,17 +42,11 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
             yield Problem(
                 f"{path}/id",
                 f"found {line.id!r}, which is how calls that are not in the script are named; "
-                "expected an id that neither begins with stuck-microphone. nor ends with "
-                ".readback, .correction, .repeat-1 or .say-again-1",
+                "expected an id that neither begins with stuck-microphone., controller. or ra. "
+                "nor ends with .readback, .correction, .repeat-1, .say-again-1 or .confirmation-1",
             )
         if line.frequency_khz not in CHANNELS_KHZ:
-            nearest = min(CHANNELS_KHZ, key=lambda name: abs(name - line.frequency_khz))
-            yield Problem(
-                f"{path}/frequency_khz",
-                f"{line.frequency_khz} kHz is no channel; expected {CHANNELS_KHZ[0]} to "
-                f"{CHANNELS_KHZ[-1]} in 25 kHz steps, or 5, 10 or 15 above one of them (8.33 kHz "
-                f"spacing), such as {nearest}",
-            )
+            yield Problem(f"{path}/frequency_khz", _no_channel(line.frequency_khz))
         if line.answers is not None and line.answers not in frequencies:
             tail = library.nearest(line.answers, line_ids)
             yield Problem(f"{path}/answers", f"no line {line.answers!r} before {line.id!r}{tail}")
@@ -62,6 +58,16 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
             )
         frequencies[line.id] = line.frequency_khz
     yield from _strangers(scenario)
+
+
+def _no_channel(frequency_khz: int) -> str:
+    """Return what is wrong with a number that is the name of no channel."""
+    nearest = min(CHANNELS_KHZ, key=lambda name: abs(name - frequency_khz))
+    return (
+        f"{frequency_khz} kHz is no channel; expected {CHANNELS_KHZ[0]} to {CHANNELS_KHZ[-1]} in "
+        "25 kHz steps, or 5, 10 or 15 above one of them (8.33 kHz spacing), such as "
+        f"{nearest}"
+    )
 
 
 def _strangers(scenario: Scenario) -> Iterator[Problem]:
@@ -84,6 +90,34 @@ def _strangers(scenario: Scenario) -> Iterator[Problem]:
         for name in names:
             if name not in known:
                 yield unknown(f"{path}/{name}", "actor or unit", name, list(dict.fromkeys(known)))
+
+
+def impossible_controllers(scenario: Scenario) -> Iterator[Problem]:
+    """Yield controllers of actors, of units that nobody hears, and two on one frequency."""
+    actors = [actor.callsign for actor in scenario.actors]
+    units = controlling_units(scenario)
+    heard = [unit for unit, frequencies_khz in units.items() if frequencies_khz]
+    for unit, controller in scenario.controllers.items():
+        path = f"controllers/{unit}"
+        if unit in actors:
+            yield Problem(path, "it is an actor; expected the name of a unit")
+        elif unit not in heard and unit != scenario.radio.controller:
+            hint = "; the frequency of a unit without radio lines is given in frequencies_khz"
+            yield unknown(path, "unit", unit, heard, hint)
+        for index, frequency_khz in enumerate(controller.frequencies_khz):
+            if frequency_khz not in CHANNELS_KHZ:
+                where = f"{path}/frequencies_khz/{index}"
+                yield Problem(where, _no_channel(frequency_khz))
+    owners: dict[int, str] = {}
+    for unit, frequencies_khz in units.items():
+        for frequency_khz in frequencies_khz:
+            owner = owners.setdefault(frequency_khz, unit)
+            if owner != unit:
+                yield Problem(
+                    f"controllers/{unit}",
+                    f"it is on {frequency_khz} kHz, and so is {owner!r}; expected one controller "
+                    "on each frequency",
+                )
 
 
 def unsaid_lines(scenario: Scenario) -> Iterator[Problem]:

@@ -8,6 +8,7 @@ from airfield import NORTH, Airfield, Mover, lands, stands, takes_off
 from airhilt.assistant.decision.engines.paper import PaperEngine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.messages import Told
 from decisions import reference
 from encounters import head_on
 from field_cameras import beside_threshold, on_tower, silent
@@ -67,3 +68,29 @@ def test_a_loss_of_separation_rests_on_the_two_tracks_alone() -> None:
     assert len(evidence.tracks) == 2
     assert evidence.rules == ("loss_of_separation",)
     assert evidence.shares == {"adsb": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("told", "recipients"),
+    [
+        (None, {"AAL123", "ATC"}),
+        ("crew", {"AAL123"}),
+        ("controller", {"ATC"}),
+        ("both", {"AAL123", "ATC"}),
+    ],
+)
+def test_who_is_told_of_a_conflict_can_be_chosen(told: Told | None, recipients: set[str]) -> None:
+    movers = [Mover("AAL123", NORTH, lands(400.0)), Mover("DAL456", NORTH, takes_off(999.0))]
+    worker = DecisionWorker(PaperEngine(), Template(), told=told)
+    found = [each for _, each in Airfield(movers, MISREAD, worker).run(30).told]
+    assert {each.recipient for each in found} == recipients
+    assert all(set(each.recipients) == recipients for each in found)
+
+
+def test_the_controller_is_told_what_is_recommended_to_each() -> None:
+    movers = [Mover("AAL123", NORTH, lands(30.0)), Mover("DAL456", NORTH, stands(800))]
+    found = [each for _, each in Airfield(movers, worker=reference()).run(10).told]
+    own = {each.recipient: each.recommendation for each in found if each.recommendation}
+    to_controller = [each.recommendations for each in found if each.recipient == "ATC"]
+    assert own["AAL123"] in [each.get("AAL123") for each in to_controller]
+    assert not any(each.recommendations for each in found if each.recipient != "ATC")

@@ -233,7 +233,8 @@ def asked(world: World, recipient: str, *names: str, t_s: float = 30.0) -> None:
 
 
 def test_a_controller_who_is_asked_says_the_instruction_again_and_the_crew_reads_it_back() -> None:
-    world = World(CLEARANCE, READBACK)
+    prompt = {TOWER: {"reaction_median_s": 3.0, "reaction_sigma": 0.0}}
+    world = World(CLEARANCE, {**READBACK, "text": WRONG}, controllers=prompt)
     asked(world, "ATC", "clearance")
     asked(world, "ATC", "clearance")
     world.run_until(60.0)
@@ -241,18 +242,25 @@ def test_a_controller_who_is_asked_says_the_instruction_again_and_the_crew_reads
     assert world.said() == ["clearance", "readback", *again]
     assert world.spoken(again[0]).text == CLEARANCE["text"]
     assert world.spoken(again[0]).t_tx_ns == 33 * SECOND_NS
-    assert world.spoken(again[1]).text == READBACK["text"]
+    assert world.spoken(again[1]).text == WRONG
     assert len(world.done) == 1
 
 
 def test_a_controller_who_is_asked_about_a_readback_asks_the_crew_for_it() -> None:
-    world = World(CLEARANCE, READBACK)
+    world = World(CLEARANCE, {**READBACK, "text": WRONG})
     asked(world, "ATC", "readback")
     world.run_until(60.0)
     request, again = world.said()[2:]
     assert (world.spoken(request).speaker, world.spoken(again).speaker) == (TOWER, "AAL123")
     assert "say again" in world.spoken(request).text
-    assert world.spoken(again).text == READBACK["text"]
+    assert world.spoken(again).text == WRONG
+
+
+@pytest.mark.parametrize("call", ["clearance", "readback"])
+def test_a_controller_who_has_heard_a_right_readback_does_not_ask_for_it(call: str) -> None:
+    world = World(CLEARANCE, READBACK)
+    asked(world, "ATC", call)
+    assert world.run_until(60.0).said() == ["clearance", "readback"]
 
 
 def test_a_crew_that_is_asked_says_its_own_call_again_without_being_asked_by_anybody() -> None:
@@ -477,9 +485,7 @@ def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s() -> 
 
 def test_nobody_hears_who_exists_no_more_or_is_heard_by_them() -> None:
     world = World(CLEARANCE, READBACK)
-    stations = Stations(
-        cast(Any, world.actors), ScenarioSite.of(world.scenario), world.scenario.radio.lines
-    )
+    stations = Stations(cast(Any, world.actors), ScenarioSite.of(world.scenario), world.scenario)
     assert stations.is_there("AAL123")
     assert stations.audible("AAL123", TOWER)
     assert stations.received("AAL123")

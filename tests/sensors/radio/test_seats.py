@@ -364,9 +364,11 @@ def test_who_is_not_sure_of_what_was_recognised_asks_again(text: str, confidence
 
 def test_without_a_task_words_that_name_nobody_are_for_the_only_crew_on_the_frequency() -> None:
     """With several crews there, they are for none of them."""
-    for others, outcomes in (((), ["unsure"]), (("DAL456",), [])):
-        crews = [line(f"hello-{name}", 50, name, TOWER, "Hello.") for name in ("AAL123", *others)]
-        world = Seated(*crews, seats=[TOWER], backend=Sounding(160.0)).speaks(12.0, 14.0, TOWER)
+    hello = line("hello", 50, "AAL123", TOWER, "Hello.")
+    others = ("DAL456", "UAL88", "BAW21", "DLH9")
+    for strangers, outcomes in ((others, ["unsure"]), ((), [])):
+        world = Seated(hello, seats=[TOWER], backend=Sounding(160.0), strangers=strangers)
+        world.speaks(12.0, 14.0, TOWER)
         words = transcript("climb flight level three three zero", 1.0)
         take = partial(world.conversation.take, f"asr/{KHZ}", words, b"")
         world.at(15.0, take)

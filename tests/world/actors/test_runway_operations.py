@@ -297,6 +297,16 @@ def test_what_the_aircraft_cannot_do_is_said_and_does_not_end_the_run() -> None:
         tell(crew_of(plane), "hold_position")
 
 
+def test_who_is_told_to_stop_on_the_takeoff_roll_rejects_the_takeoff_or_says_it_is_too_fast() -> (
+    None
+):
+    plane = Plane("takeoff_roll", speed_kt=60.0)
+    tell(crew_of(plane), "hold_position")
+    assert plane.names == ["reject_takeoff"]
+    with pytest.raises(Unable, match="decision speed"):
+        tell(crew_of(Plane("takeoff_roll", speed_kt=160.0)), "hold_position")
+
+
 # --- what went wrong once, or nearly ----------------------------------------------------------
 
 

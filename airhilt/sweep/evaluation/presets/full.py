@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 
 from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, REFERENCE, shipped_scenarios
+from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
-from airhilt.sweep.evaluation.tables import NOTHING, Cell, Table, number, percent, share
+from airhilt.sweep.evaluation.tables import Cell, Table, number, percent, share
 from airhilt.sweep.specification import Specification
 
 MODALITIES = "modalities"
@@ -123,32 +123,7 @@ def _notes(results: Results) -> Iterator[str]:
 def _harms(results: Results, baselines: Baselines) -> Table:
     """Return what became, by scenario, of the runs with harm to the pair without an assistant."""
     names = (NONE, *(each.name for each in ASSISTANTS))
-    counts = {name: _harm_counts(results.rows[name], baselines) for name in names}
-    return Table(
-        name="harms",
-        title="What is avoided, by scenario",
-        columns=("scenario", *names),
-        rows=tuple(
-            (scenario, *(counts[name].get(scenario, NOTHING) for name in names))
-            for scenario in counts[NONE]
-        ),
-        notes=(
-            "Number of runs by the worst that they came to, of those in which the pair came to "
-            "harm without an assistant. An incursion is harm if its category is A or B.",
-        ),
-    )
-
-
-def _harm_counts(rows: Sequence[Row], baselines: Baselines) -> Mapping[str, str]:
-    """Return the worst that runs came to, with their numbers, by scenario."""
-    harms: defaultdict[str, Counter[str]] = defaultdict(Counter)
-    for row in rows:
-        if scores.pair_of(row) in baselines.lost:
-            harms[row["scenario"]][scores.harm_of(row)] += 1
-    return {
-        scenario: ", ".join(f"{harm} {count}" for harm, count in sorted(harms[scenario].items()))
-        for scenario in sorted(harms)
-    }
+    return harms_table({name: results.rows[name] for name in names}, baselines)
 
 
 def _severities(results: Results, baselines: Baselines) -> Table:

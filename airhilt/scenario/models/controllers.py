@@ -1,0 +1,45 @@
+"""Simulated controllers of a scenario: how each responds to advisories and alerts."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from airhilt.messages import AdvisoryKind
+from airhilt.quantities import FrequencyKhz, Number, Share
+from airhilt.scenario.models.actors import Reactions
+
+Alerting = AdvisoryKind | Literal["conflict_alert"]
+"""What a controller acts on: a kind of advisory, or the conflict alert of the world."""
+
+
+class Controller(Reactions):
+    """Simulated controller of one unit: what it acts on, how soon, and how surely.
+
+    The median reaction time is assumed. With its sigma, 95 % of the controllers speak within 13 s,
+    where the tail of tower controllers lies (Kopald 2012).
+    """
+
+    reaction_median_s: Number = Field(default=6.0, ge=0.0, le=120.0)
+    reaction_sigma: Number = Field(default=0.47, ge=0.0, le=2.0)
+    acts_on: tuple[Alerting, ...] = Field(
+        default=(
+            "loss_of_separation",
+            "readback_mismatch",
+            "runway_conflict",
+            "clarification",
+            "conflict_alert",
+        ),
+        description="kinds of advisories that it acts on, and conflict_alert for that of the world",
+    )
+    frequencies_khz: tuple[FrequencyKhz, ...] = Field(
+        default=(),
+        max_length=20,
+        description="frequencies of its unit besides those of the unit's radio lines",
+    )
+    ignores_contradicted: Share = Field(
+        default=0.0,
+        description="probability of ignoring an advisory that its own displays contradict: by "
+        "them, no two of the traffic come near each other",
+    )

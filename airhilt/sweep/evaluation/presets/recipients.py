@@ -1,0 +1,123 @@
+"""Who is told: crews, the controller, or both, over all families.
+
+The assistant is the same, and so are its advisories; only their recipients differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+
+from pydantic import JsonValue
+
+from airhilt.engine_families import NONE
+from airhilt.sweep.evaluation import scores
+from airhilt.sweep.evaluation.assistants import REFERENCE, shipped_scenarios
+from airhilt.sweep.evaluation.harms import harms_table
+from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
+from airhilt.sweep.evaluation.scores import Baselines
+from airhilt.sweep.evaluation.tables import Cell, Table, number, share
+from airhilt.sweep.specification import Specification
+
+WITHOUT_CAMERAS = "without_cameras"
+WITH_CAMERAS = "with_cameras"
+NEED_CAMERAS = ("S01C", "S02C")
+"""Families in which only cameras show the other party."""
+MOST_SEEDS_WITH_CAMERAS = 3
+"""Greatest number of seeds of runs with cameras, which take minutes each."""
+TOLD = ("crew", "controller", "both")
+"""Who is told: the values of the option ``recipients``."""
+EVERYTHING = "all"
+"""Name of the rows over all families."""
+NOBODY = "nobody"
+"""Name of the runs without an assistant."""
+
+
+def specifications(choice: Choice) -> Mapping[str, Specification]:
+    """Return a sweep without an assistant and one over who is told, with and without cameras."""
+    families = {name: one.family for name, one in shipped_scenarios().items()}
+    seen = [name for name, family in families.items() if family in NEED_CAMERAS]
+    others = [name for name, family in families.items() if family not in NEED_CAMERAS]
+    found = _sweeps(choice, WITHOUT_CAMERAS, others, {"cameras": False})
+    if choice.has_cameras:
+        few = Choice(min(choice.seeds, MOST_SEEDS_WITH_CAMERAS), choice.options)
+        found |= _sweeps(few, WITH_CAMERAS, seen, {})
+    return found
+
+
+def _sweeps(
+    choice: Choice, name: str, scenarios: Sequence[str], settled: Mapping[str, bool]
+) -> dict[str, Specification]:
+    shared: dict[str, JsonValue] = {"latency": "fixed", **settled}
+    nobody = choice.specification(scenarios, {**shared, "assistant": NONE})
+    told = choice.specification(
+        scenarios, {**shared, "assistant": REFERENCE.name}, {"recipients": TOLD}
+    )
+    return {f"{name}_{NOBODY}": nobody, name: told}
+
+
+def tables(results: Results) -> Sequence[Table]:
+    """Return the comparison by family, and by scenario what became of the runs."""
+    nobody = _rows(results, f"_{NOBODY}")
+    rows = _rows(results, "")
+    baselines = Baselines.of(nobody, ())
+    told = {each: [row for row in rows if row["recipients"] == each] for each in TOLD}
+    harms = harms_table({NOBODY: nobody, **told}, baselines)
+    return _families(results, rows, baselines), harms
+
+
+def _rows(results: Results, ending: str) -> list[Row]:
+    names = (WITHOUT_CAMERAS, WITH_CAMERAS)
+    return [row for name in names for row in results.rows.get(f"{name}{ending}", ())]
+
+
+def _families(results: Results, rows: Sequence[Row], baselines: Baselines) -> Table:
+    names = [*sorted({row["family"] for row in rows}), EVERYTHING]
+    groups = [
+        (name, told, own)
+        for name, told in product(names, TOLD)
+        if (own := [row for row in rows if _is_of(row, name, told)])
+    ]
+    return Table(
+        name="recipients",
+        title="Who is told",
+        columns=("family", "told", "warned", "avoided", "lead, s", "nuisance, 1/h"),
+        rows=tuple((name, told, *_scores(own, baselines)) for name, told, own in groups),
+        notes=tuple(_notes(results)),
+    )
+
+
+def _is_of(row: Row, family: str, told: str) -> bool:
+    return row["recipients"] == told and family in (row["family"], EVERYTHING)
+
+
+def _scores(rows: Sequence[Row], baselines: Baselines) -> tuple[Cell, ...]:
+    conflicts = scores.with_conflict(rows)
+    return (
+        share(scores.share(conflicts, "warned")),
+        share(scores.avoided(conflicts, baselines)),
+        number(scores.mean(conflicts, "lead_before_closest_approach_s"), 0),
+        number(scores.nuisance_per_hour(rows)),
+    )
+
+
+def _notes(results: Results) -> Iterator[str]:
+    yield (
+        f"Assistant: `{REFERENCE.name}`. Told: whom it tells. Avoided: no harm to the pair, of the "
+        "runs in which it came to harm without an assistant. Nuisance: alerts in an hour of "
+        "nominal traffic. In brackets: 95 % interval."
+    )
+    needing = " and ".join(NEED_CAMERAS)
+    if results.choice.has_cameras:
+        yield f"{needing} with cameras, on at most {MOST_SEEDS_WITH_CAMERAS} seeds."
+    else:
+        yield f"Without cameras, and so without {needing}."
+
+
+PRESET = Preset(
+    name="recipients",
+    summary="who is told (crew, controller, both), over all families",
+    seeds=3,
+    specifications=specifications,
+    tables=tables,
+)
