@@ -16,9 +16,24 @@ Action = Literal[
     "direct", "own_navigation", "squawk", "contact", "monitor", "stand_by", "report",
     "wildlife", "wildlife_gone", "stop_and_go", "circle", "cancel_approach", "missed_approach",
     "cross_fix", "climb_via", "descend_via", "vertical_rate", "turn_by", "hold_at", "mach",
-    "resume_speed", "no_speed_restrictions", "ident", "visual_separation",
+    "resume_speed", "no_speed_restrictions", "ident", "visual_separation", "orbit", "extend",
+    "short_approach", "join", "side_step", "return_to_field", "expedite", "say",
 ]  # fmt: skip
-"""Action that a call orders, reads back, or reports."""
+"""Action that a call orders, reads back, or reports.
+
+The slots of those in the circuit and of questions:
+
+- orbit: one full turn, with ``turn`` if the side is said.
+- extend: fly a leg of the circuit longer; ``position`` is the leg ("downwind").
+- short_approach: turn in early; no slots.
+- join: fly a leg of the circuit; ``position`` is the leg ("downwind", "base", "final", "crosswind",
+  "upwind", "straight in"), with ``turn`` and ``runway`` if they are said.
+- side_step: land on the parallel ``runway`` instead.
+- return_to_field: come back to land; no slots.
+- expedite: do without delay what was told before; no slots.
+- say: tell by radio what ``position`` names ("altitude", "heading", "speed", "position",
+  "intentions").
+"""
 
 CLEARANCES: frozenset[Action] = frozenset(
     {"cleared_to_land", "cleared_for_takeoff", "line_up", "cross", "proceed", "touch_and_go",
@@ -42,8 +57,9 @@ Turn = Literal["left", "right"]
 Bound = Literal["or_more", "or_less"]
 Kind = Literal[
     "instruction", "readback", "report", "request", "say_again", "correction", "disregard",
-    "unknown",
+    "hail", "unknown",
 ]  # fmt: skip
+"""Kind of a call; a hail has only the names of who is called and who calls."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -209,6 +209,32 @@ def _circle(instruction: Instruction, style: Style, readback: bool) -> str:
     return join("circle to", _runway(instruction, style))
 
 
+def _side_step(instruction: Instruction, style: Style, readback: bool) -> str:
+    del readback
+    return join("side step", f"to {_runway(instruction, style)}" if instruction.runway else "")
+
+
+def _orbit(instruction: Instruction, style: Style, readback: bool) -> str:
+    del readback
+    if style == "icao":
+        return join("orbit", instruction.turn or "")
+    return join("make", "" if instruction.turn else "a", instruction.turn or "", "three sixty")
+
+
+def _extend(instruction: Instruction, style: Style, readback: bool) -> str:
+    del style, readback
+    return join("extend", instruction.position or "downwind")
+
+
+def _join_leg(instruction: Instruction, style: Style, readback: bool) -> str:
+    del readback
+    verb = "enter" if style == "faa" else "join"
+    leg = instruction.position or "downwind"
+    if leg == "straight in":
+        verb = "make" if style == "faa" else "join"
+    return join(verb, instruction.turn or "", leg, _runway(instruction, style))
+
+
 def _direct(instruction: Instruction, style: Style, readback: bool) -> str:
     del readback
     turn = f"turn {instruction.turn}" if instruction.turn else ""
@@ -311,6 +337,14 @@ _FORMS: dict[Action, Speak] = {
     "monitor": _station("monitor"),
     "stand_by": _alone("stand by"),
     "report": _about("report"),
+    "orbit": _orbit,
+    "extend": _extend,
+    "short_approach": _alone("make short approach"),
+    "join": _join_leg,
+    "side_step": _side_step,
+    "return_to_field": _alone("return to the field"),
+    "expedite": _alone("expedite"),
+    "say": _about("say"),
     "wildlife": _wildlife,
     "wildlife_gone": _wildlife_gone,
 }

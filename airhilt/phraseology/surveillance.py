@@ -173,6 +173,12 @@ def report(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, segment.found.end())
 
 
+def said(segment: Segment, action: Action) -> Read | None:
+    """Read what a pilot is to say at once."""
+    read = Instruction(action, position=segment.found["event"])
+    return Read(read, segment.start, segment.found.end())
+
+
 _SHORT_LEVEL = re.compile(r"level [0-9]{1,2}$")
 _SEEN = re.compile(r"(?:it|him|them|that|that one|that traffic) in sight")
 _EVENT_ENDS = re.compile(rf"$| (?:\||#|runway|for|{FIX_ENDS})")
@@ -238,6 +244,10 @@ FORMS: Listed = (
      r"(?<!wildlife )(?<!ride )(?<!position )(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
      rf"report (?:your |the (?=heading|speed|level))?(?:(?P<event>{_EVENT})"
      rf"|(?P<other>{_OTHER}))", report),
+    ("say", "say",
+     r"say (?:your |the )?(?:(?:present|current|assigned|indicated) )?"
+     r"(?P<event>altitude|level|heading|(?:air)?speed|position|intentions|type|mach(?: number)?"
+     r"|fuel remaining|souls on board)", said),
     ("advise", "report",
      rf"advise (?P<event>when (?:able|ready|you can|clear|established)(?:(?: take| for)?"
      rf" (?:direct(?: to)? {FIX}|higher|lower))?)", report),
