@@ -10,22 +10,28 @@ from typing import cast
 
 from airhilt.phraseology.call import Action, Instruction, Turn
 from airhilt.phraseology.forms import BARE_RUNWAY, Listed, Read, Segment, alone
-from airhilt.phraseology.slots import RUNWAY, designator, runway_confidence
+from airhilt.phraseology.slots import RUNWAY, SIDED_RUNWAY, designator, runway_confidence
 
 LEGS = ("downwind", "base", "final", "crosswind", "upwind")
 _LEG = "|".join(LEGS)
 _RUNWAY_BEHIND = re.compile(
-    rf"(?: (?:for|to|on))?(?: the)?(?: circuit)? (?P<word>runway )?{RUNWAY}(?! cleared| line)"
+    rf"(?: (?:for|to|on))?(?: the)?(?: circuit)? (?P<word>runway |(?={SIDED_RUNWAY})){RUNWAY}"
 )
+
+_CLEARED = re.compile(r" (?:cleared|clear|line|continue)(?!\S)")
 
 
 def on_leg(segment: Segment, action: Action) -> Read | None:
-    """Read a leg of the circuit, the side of its turns and its runway."""
+    """Read a leg of the circuit, the side of its turns and its runway.
+
+    A runway right before another action is also that of a clearance.
+    """
     parts = segment.found.groupdict()
     runway = _RUNWAY_BEHIND.match(segment.after)
     end, sure = segment.found.end(), 1.0
     if runway is not None:
-        end += runway.end()
+        is_shared = _CLEARED.match(segment.text, segment.found.end() + runway.end())
+        end += 0 if is_shared else runway.end()
         sure = min(runway_confidence(runway[2]), 1.0 if runway["word"] else BARE_RUNWAY)
     read = Instruction(
         action,
@@ -48,10 +54,12 @@ FORMS: Listed = (
     ("extend extending", "extend",
      rf"extend(?:ing)?(?: (?:your|the|on|left|right|hand))* (?P<leg>{_LEG})(?: leg)?", on_leg),
     ("make making", "short_approach", r"mak(?:e|ing)(?: a)? short approach", alone),
+    ("short", "short_approach", r"short approach approved", alone),
     ("make making join joining enter entering", "join",
      rf"(?:mak(?:e|ing)|join(?:ing)?|enter(?:ing)?)(?: (?:the|a))? {_SIDE}"
-     rf"(?P<leg>{_LEG}|straight in)(?: (?:leg|approach))?", on_leg),
-    ("turn", "join", rf"turn (?:now )?{_SIDE}(?P<leg>{_LEG})(?: leg)?", on_leg),
+     rf"(?P<leg>{_LEG}|straight in)(?: (?:leg|approach))?(?: (?P<turn_behind>left|right) hand)?",
+     on_leg),
+    ("turn", "join", rf"turn (?:now )?{_SIDE}(?P<leg>{_LEG})(?: leg)?(?: now)?", on_leg),
     ("side sidestep", "side_step", r"side ?step(?:ping)?", on_leg),
     ("return", "return_to_field",
      r"return (?:to (?:the )?(?:field|airport|aerodrome|airfield|runway|land)|for landing)", alone),

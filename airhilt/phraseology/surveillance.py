@@ -245,9 +245,10 @@ FORMS: Listed = (
      rf"report (?:your |the (?=heading|speed|level))?(?:(?P<event>{_EVENT})"
      rf"|(?P<other>{_OTHER}))", report),
     ("say", "say",
-     r"say (?:your |the )?(?:(?:present|current|assigned|indicated) )?"
-     r"(?P<event>altitude|level|heading|(?:air)?speed|position|intentions|type|mach(?: number)?"
-     r"|fuel remaining|souls on board)", said),
+     r"say (?:your |the )?(?:(?:present|current|indicated) )?"
+     r"(?P<event>(?:assigned )?(?:altitude|level|airspeed|speed|heading)|position|intentions|type"
+     r"|mach(?: number)?|fuel remaining|souls on board(?: and fuel remaining)?)"
+     r"(?: leaving| aircraft)?", said),
     ("advise", "report",
      rf"advise (?P<event>when (?:able|ready|you can|clear|established)(?:(?: take| for)?"
      rf" (?:direct(?: to)? {FIX}|higher|lower))?)", report),

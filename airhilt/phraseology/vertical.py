@@ -367,7 +367,7 @@ FORMS: Listed = (
      r"expedit(?:e|ing) (?:your |the )?(?:climb|descent|descend)(?: to| and maintain)?"
      rf"{_OR}",
      altitude),
-    ("expedite", "expedite", r"expedite(?= \||$)", alone),
+    ("expedite", "expedite", r"(?:^|(?<=\| ))expedite(?= \||$)", alone),
     ("not", "altitude",
      r"not (?:to be )?(?P<bound>above|below)(?= [0-9]| flight| level| altitude [0-9])",
      limited_level),
