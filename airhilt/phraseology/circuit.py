@@ -62,6 +62,6 @@ FORMS: Listed = (
     ("turn", "join", rf"turn (?:now )?{_SIDE}(?P<leg>{_LEG})(?: leg)?(?: now)?", on_leg),
     ("side sidestep", "side_step", r"side ?step(?:ping)?", on_leg),
     ("return", "return_to_field",
-     r"return (?:to (?:the )?(?:field|airport|aerodrome|airfield|runway|land)|for landing)", alone),
+     r"return (?:to (?:the )?(?:field|airport|aerodrome|airfield|land)|for landing)", on_leg),
 )  # fmt: skip
 """Forms of the circuit."""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
-from airhilt.phraseology.forms import BARE_RUNWAY, DEPARTED, NO_VALUE, Read
+from airhilt.phraseology.forms import BARE_RUNWAY, DEPARTED, LONG_NAME, NO_VALUE, Read
 from airhilt.phraseology.scan import Found, Span
 
 Reads = list[tuple[Read, Found]]
@@ -41,6 +41,14 @@ _AS_FILED = re.compile(
     r"|cleared to (?!land|cross|enter|the ils).* departure)(?!\S)"
 )
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
+_SHARING: dict[Action, frozenset[Action]] = {
+    "backtrack": frozenset({"line_up"}),
+    "line_up": frozenset({"backtrack"}),
+    **dict.fromkeys(
+        ("cleared_to_land", "touch_and_go", "cleared_option"), frozenset({"circle", "side_step"})
+    ),
+}
+"""Actions on a runway that one beside them names: "circle to runway 33, cleared to land"."""
 _AFTER_DEPARTURE: frozenset[Action] = (SEQUENCED - {"direct"}) | {"contact"}
 """Actions of a clearance before departure that wait for it."""
 _PROCEDURE = re.compile(r"(?<!\S)(?:[0-9]|arrival|departure|via|star|sid)(?!\S)")
@@ -77,11 +85,12 @@ _RECEIVED = re.compile(r"when receiving (?:the )?(.*?)(?: vor| v o r)?")
 
 
 def without_goals(reads: Reads) -> None:
-    """Drop the directs to a fix that no word names."""
+    """Drop the directs to a fix, and the reports of an event, that no word names."""
     reads[:] = [
         (read, each)
         for read, each in reads
-        if read.instruction.action != "direct" or read.instruction.position is not None
+        if read.instruction.action not in ("direct", "report")
+        or read.instruction.position is not None
     ]
 
 
@@ -175,6 +184,9 @@ def _set(
     told = read.instruction
     if told.action in REPORTS:
         return  # What is seen waits for nothing.
+    if told.action == "report" and told.position is None and (condition or "if")[:2] != "if":
+        told = replace(told, position=(condition or "").partition(" ")[2], confidence=LONG_NAME)
+        condition = None
     received = _RECEIVED.fullmatch(condition or "") if told.action == "direct" else None
     if received and told.position is None:
         told = replace(told, position=received[1])
@@ -234,7 +246,7 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             route = Instruction("taxi", via=(told.position or "",), confidence=told.confidence)
             reads[index] = read._replace(instruction=route), each
             continue
-        if told.runway is None and told.action in ("backtrack", "line_up"):
+        if told.runway is None and told.action in _SHARING:
             _share_runway(reads, index, text)
         if told.condition is not None:
             continue
@@ -264,7 +276,7 @@ def _is_turn_of_route(told: Instruction, first: str, before: Reads) -> bool:
 
 
 def _share_runway(reads: Reads, index: int, text: str) -> None:
-    """Give a backtrack and a line-up that "and" joins the runway that is named once."""
+    """Give an action the runway that is named once, right beside it."""
     read, each = reads[index]
     for other, between in (
         (index + 1, slice(read.end, reads[index + 1][0].start if index + 1 < len(reads) else 0)),
@@ -273,7 +285,7 @@ def _share_runway(reads: Reads, index: int, text: str) -> None:
         if not 0 <= other < len(reads) or text[between].strip() not in ("", "and"):
             continue
         told = reads[other][0].instruction
-        if told.runway and told.action in ("backtrack", "line_up"):
+        if told.runway and told.action in _SHARING[read.instruction.action]:
             shared = replace(
                 read.instruction, runway=told.runway, confidence=min(told.confidence, BARE_RUNWAY)
             )

@@ -271,7 +271,8 @@ def _runway_after(segment: Segment, *, is_named: bool) -> re.Match[str] | None:
     if named is None or _OTHER_RUNWAY.search(after[: named.start()]):
         return None
     is_beside = after[: named.start()].strip() in ("", "on")
-    return None if is_named and (not is_beside or is_next_runway(segment)) else named
+    is_next = is_next_runway(segment) and not (is_beside and not is_named)
+    return None if is_next or (is_named and not is_beside) else named
 
 
 def alone(segment: Segment, action: Action) -> Read | None:

@@ -22,6 +22,7 @@ from airhilt.phraseology.forms import (
     runway_before,
 )
 from airhilt.phraseology.slots import (
+    FIX,
     FIX_ENDS,
     LETTER,
     NAMED_RUNWAY,
@@ -79,6 +80,11 @@ _TAXI_TO = re.compile(
     r"(?!.* (?:runway|not)(?!\S)) to (?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
 )
 
+_TO_FIX = re.compile(rf" to ((?!(?:the|via)(?!\S)|{TAXIWAY}){FIX})")
+_PLACE_ON_GROUND = re.compile(
+    rf"(?<!\S)(?:{STAND}|holding|taxiway|station|fire|cargo|maintenance|area|line|fbo|fuel)(?!\S)"
+)
+
 
 def proceed(segment: Segment, action: Action) -> Read | None:
     """Read leave to go on to a runway, or a taxi route."""
@@ -87,15 +93,15 @@ def proceed(segment: Segment, action: Action) -> Read | None:
     runway = NAMED_RUNWAY.search(segment.after)
     if runway and "and" in segment.after[: runway.start()].split():
         return None  # Another action, whose word is lost.
-    if runway:
+    if runway and not segment.after.startswith(" to "):
         return on_runway(segment, action)
     if not re.match(r" (?:to|via)(?!\S)", segment.after):
         return None
-    read = taxi(segment, "taxi")
-    if read is None or read.instruction.via:
-        return read
-    told = read.instruction  # It may be the flight to a fix.
-    return read._replace(instruction=replace(told, confidence=min(told.confidence, SHORTENED)))
+    fix = _TO_FIX.match(segment.after)
+    if fix is None or _PLACE_ON_GROUND.search(fix[1]):
+        return taxi(segment, "taxi")
+    to = Instruction("direct", position=fix[1].strip())
+    return Read(to, segment.start, segment.found.end() + fix.end())
 
 
 def taxi(segment: Segment, action: Action) -> Read | None:

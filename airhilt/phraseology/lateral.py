@@ -39,7 +39,8 @@ def heading(segment: Segment, action: Action) -> Read | None:
     if turn is None and _TURN.search(segment.before):
         confidence = NO_VALUE  # The side of the turn was not understood.
     if "bare" in parts or (at and at["bare"] is not None):
-        confidence = min(confidence, BARE_VALUE)
+        is_north = turn is not None and number == "360"  # It may be a full turn.
+        confidence = min(confidence, SHORTENED if is_north else BARE_VALUE)
     read = Instruction(
         action,
         position=f"{kept} heading" if kept else taxiway(taxiway_at) if taxiway_at else None,

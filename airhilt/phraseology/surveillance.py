@@ -162,6 +162,8 @@ def hold_on(segment: Segment, action: Action) -> Read | None:
 def report(segment: Segment, action: Action) -> Read | None:
     """Read what is to be reported, in words."""
     event = segment.found["event"]
+    if event is None and segment.found["other"] is None:  # The event stands before it.
+        return Read(Instruction(action), segment.start, segment.found.end())
     what = (event or segment.found["other"]).strip()
     if _SEEN.fullmatch(what):
         is_field = _FIELD.search(segment.before_all) is not None
@@ -184,23 +186,26 @@ _SEEN = re.compile(r"(?:it|him|them|that|that one|that traffic) in sight")
 _EVENT_ENDS = re.compile(rf"$| (?:\||#|runway|for|{FIX_ENDS})")
 _FIELD = re.compile(r"(?<!\S)(?:field|airport|aerodrome|airfield)(?!\S)")
 _NAMED_RUNWAY = r"(?: runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?(?! cleared))?"
+_LEG = r"(?:short |long |left |right )?(?:final|downwind|base|crosswind|upwind)"
 _EVENT = (
-    rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s"
-    r"|downwind|approach))?"
+    rf"(?:(?:fully )?established(?: on (?:the )?(?:localizer|localiser|glide path|ils|i l s"
+    r"|downwind|final|missed approach|approach))?"
     rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it|him|them|that traffic)"
     r" in sight"
     rf"|in sight|turning (?:left |right )?(?:base|final|downwind|crosswind)"
     rf"|(?:passing|leaving|reaching|through|level|over|crossing|at) "
     rf"(?:the )?(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)"
-    r"|(?:runway )?vacated"
-    rf"|ready(?: (?:to copy|for departure|to taxi))?|(?:short |long )?final"
+    r"|(?:runway )?vacated|clear(?: of (?:the )?(?:runway|traffic|weather)(?! [0-9]))?|lined up"
+    r"|ready(?: (?:to|for) (?:the )?[a-z]+)?|complete|abeam (?:the )?[a-z]+"
+    r"|(?:leaving|entering) the [a-z]+"
     r"|(?:new )?(?:heading|speed|altitude|level|position)"
-    rf"|(?:left |right )?(?:downwind|base|crosswind)|procedure turn inbound|airborne)(?!\S)"
+    rf"|(?:on |midfield )?{_LEG}|on (?:the )?(?:missed approach|stand|frequency)"
+    r"|procedure turn inbound|airborne)(?!\S)"
 )
 _OTHER = rf"(?:(?!{FIX_ENDS}(?!\S)|\|)[a-z]+(?: (?!{FIX_ENDS}(?!\S))[a-z]+){{0,2}})"
 
 FORMS: Listed = (
-    ("squawk squawking", "squawk", r"squawk(?:ing)? (?P<code>[0-7]{4})", squawk),
+    ("squawk squawking", "squawk", r"squawk(?:ing)?(?: number)? (?P<code>[0-7]{4})", squawk),
     ("squawk squawking", "squawk", r"squawk(?:ing)? (?P<thousands>[0-7]) thousand", squawk),
     ("squawk squawking", "squawk", r"squawk(?:ing)? (?:v f r|vfr)", squawk),
     ("squawk squawking", "ident", r"squawk(?:ing)? ident", alone),
@@ -241,9 +246,11 @@ FORMS: Listed = (
      r"|visual(?= \||$| cleared| from))", alone),
     ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
     ("report", "report",
-     r"(?<!wildlife )(?<!ride )(?<!position )(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
-     rf"report (?:your |the (?=heading|speed|level))?(?:(?P<event>{_EVENT})"
-     rf"|(?P<other>{_OTHER}))", report),
+     r"(?<!wildlife )(?<!ride )(?:(?<!position )|(?<=hold position ))(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
+     rf"report (?:(?:when|once|after) (?:you are |you )?|your |the (?=heading|speed|level))?"
+     rf"(?:(?P<event>{_EVENT})|(?P<other>{_OTHER}))", report),
+    ("report advise call let tell", "report",
+     r"(?:report|advise(?: me)?|call me|let me know|tell me)(?:(?!)(?P<event>)(?P<other>))?(?= \||$)", report),
     ("say", "say",
      r"say (?:your |the )?(?:(?:present|current|indicated) )?"
      r"(?P<event>(?:assigned )?(?:altitude|level|airspeed|speed|heading)|position|intentions|type"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import cast
 
 from airhilt.phraseology.call import Action, Bound, Instruction, Sense
 from airhilt.phraseology.forms import (
@@ -315,7 +316,9 @@ def rate(segment: Segment, action: Action) -> Read | None:
     fpm = float(plain) if plain else float(thousands) * 1000.0 + float(hundreds or 0)
     bound, end, or_sure = bound_after(segment.text[: segment.limit], found.end())
     sure = or_sure if fpm % 100.0 == 0.0 and 0.0 < fpm <= 8000.0 else NO_SENSE
-    return Read(Instruction(action, rate_fpm=fpm, bound=bound, confidence=sure), segment.start, end)
+    sense = cast("Sense | None", found.groupdict().get("sense"))
+    told = Instruction(action, sense=sense, rate_fpm=fpm, bound=bound, confidence=sure)
+    return Read(told, segment.start, end)
 
 
 _OR = r"(?: at or (?P<bound>above|below))?"
@@ -350,6 +353,9 @@ FORMS: Listed = (
      rf"descend(?:ing)? via(?: the)?{_PROCEDURE}"
      r"(?: (?:star|arrival)|(?= except| altimeter| qnh| \||$))",
      via_procedure),
+    ("climb climbing descend descending", "vertical_rate",
+     rf"(?P<sense>climb|descend)(?:ing)? (?:at|with) {_RATE}(?: feet)? (?:per minute|a minute|min)",
+     rate),
     ("climb climbing descend descending maintain", "altitude",
      r"(?:climb|descend|maintain)(?:ing)?(?: to)?(?: (?:and )?maintain(?:ing)?)?(?: a)? block",
      nothing),
