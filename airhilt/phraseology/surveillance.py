@@ -188,7 +188,7 @@ _FIELD = re.compile(r"(?<!\S)(?:field|airport|aerodrome|airfield)(?!\S)")
 _NAMED_RUNWAY = r"(?: runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?(?! cleared))?"
 _LEG = r"(?:short |long |left |right )?(?:final|downwind|base|crosswind|upwind)"
 _EVENT = (
-    rf"(?:(?:fully )?established(?: on (?:the )?(?:localizer|localiser|glide path|ils|i l s"
+    rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s"
     r"|downwind|final|missed approach|approach))?"
     rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it|him|them|that traffic)"
     r" in sight"
