@@ -20,7 +20,7 @@ from airhilt.phraseology.conditions import (
     withdraw,
     without_goals,
 )
-from airhilt.phraseology.denials import AFTERWARDS, BETWEEN, is_expected, is_meant
+from airhilt.phraseology.denials import ASKS, end_of_denial, is_expected, is_meant
 from airhilt.phraseology.forms import Read, Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
@@ -40,16 +40,10 @@ _OF_PROCEDURE = re.compile(
     r" (?:arrival|departure|transition)(?!\S)"
 )
 """Words before and behind the name of a procedure, which has no word of a report or an order."""
-_DENIED = frozenset({*AFTERWARDS, "given", "issued", "yet"})
-"""Words behind a clearance that was denied."""
 _VALUED = frozenset({"altitude", "heading", "speed", *CLEARANCES} - {"taxi", "cleared_approach"})
 """Actions whose value stands near their words, without unknown words between."""
 _PASSING = re.compile(r" ?(?:climbing|descending)(?!\S)")
 """Words behind a level that is only passed."""
-_EVENT_WORDS = frozenset({"after", "once", "when", "behind", "as"})
-"""First words of an event that a clearance waits for."""
-LEAST_CONDITION = 2
-"""Least number of words of a whole condition."""
 IDLE = frozenset({"and", "the"})
 """Words without which an action means the same, however surely they were heard."""
 CLEAR = (1.0, 1.0)
@@ -264,85 +258,40 @@ def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
     return None
 
 
-def _end_of_limit(spans: list[Span], begin: int, each: Found, starts: list[int]) -> int:
-    """Return the index after a limit between two actions: "maintain 3000 until LANDER cleared"."""
-    for span in spans:
-        if begin <= span.start < each.match.start() and not span.is_traffic:
-            return bisect_right(starts, span.end - 1)
-    return 0
-
-
-def _end_of_condition(spans: list[Span], each: Found, starts: list[int]) -> int:
-    """Return the index of an action right behind its condition, else 0: "once clear contact"."""
-    start = each.match.start()
-    is_behind = any(span.end == start and not span.is_traffic for span in spans)
-    begun = next((span.start for span in spans if span.end == start), start)
-    return each.first if is_behind and each.first - bisect_right(starts, begun) > 0 else 0
-
-
-def _is_waited_for(spans: list[Span], texts: list[str], each: Found, starts: list[int]) -> bool:
-    """Return whether a clearance stands right behind the whole event that it waits for.
-
-    The clearance of "once you are cleared to land" is a part of the event.
-    """
-    for span in spans:
-        words = texts[bisect_right(starts, span.start) - 1 : each.first]
-        if span.end == each.match.start() and not span.is_traffic and len(words) > LEAST_CONDITION:
-            return words[0] in _EVENT_WORDS and words[-1] not in BETWEEN - {"clear"}
-    return False
-
-
-def _end_before_runway(spans: list[Span], text: str, start: int, starts: list[int]) -> int:
-    """Return the index of the runway of a clearance right behind a condition, else 0.
-
-    "Before turning right, runway 23, cleared for takeoff": the runway ends the condition.
-    """
-    for span in spans:
-        is_whole = len(text[span.start : span.end].split()) > 0 and span.end == start
-        if is_whole and not span.is_traffic and text.startswith("runway ", start):
-            first = bisect_right(starts, span.start)
-            index = bisect_right(starts, start) - 1
-            return index if index - first >= LEAST_CONDITION else 0
-    return 0
-
-
 def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads:
-    """Return the instructions of the actions that are meant."""
+    """Return the instructions of the actions that are meant.
+
+    The words that lead to an action are those of its clause alone, without its condition.
+    """
     reads: Reads = []
     taken, floor, is_said = 0, 0, True
     found = scan.found
+    aside = {
+        index
+        for span in scan.spans
+        if not span.is_traffic
+        for index in range(bisect_right(starts, span.start) - 1, bisect_right(starts, span.end - 1))
+    }
+    is_question = not ASKS.isdisjoint(texts[1:2] if texts[:1] == [NAME] else texts[:1])
     for index, each in enumerate(found):
         limit = found[index + 1].match.start() if index + 1 < len(found) else len(plain)
-        read = each.form.build(Segment(each.match, plain, taken, limit), each.form.action)
+        action = each.form.action
+        read = each.form.build(Segment(each.match, plain, taken, limit), action)
         if read is None:
             continue
         taken = read.end
         after = bisect_right(starts, max(each.match.end(), read.end) - 1)
-        if each.form.action == "cleared_approach":
-            begin = reads[-1][0].end if reads else 0
-            floor = max(floor, _end_of_limit(scan.spans, begin, each, starts))
-        if scan.spans and each.form.action not in CLEARANCES:
-            floor = max(floor, _end_of_condition(scan.spans, each, starts))
-        elif scan.spans:
-            floor = max(floor, _end_before_runway(scan.spans, plain, read.start, starts))
-            if _is_waited_for(scan.spans, texts, each, starts):
-                floor = each.first
-        is_said = is_meant(texts, each.first, after, each.form.action, floor, is_said)
+        lead = [texts[at] for at in range(floor, each.first) if at not in aside]
+        is_said = is_meant(
+            lead, texts[each.first : after], texts[after:], action,
+            before_is_meant=is_said, is_question=is_question,
+        )  # fmt: skip
         if is_said:
             reads.append((read, each))
-        elif each.form.action not in REPORTS and is_expected(texts, each.first, floor):
+        elif action not in REPORTS and is_expected(lead):
             reads.append((read._replace(is_expected=True), each))
-        floor = after if is_said else _end_of_denial(texts, after)
+        floor = after + (0 if is_said else end_of_denial(texts[after:]))
     return reads
-
-
-def _end_of_denial(texts: list[str], after: int) -> int:
-    """Return the index after the words that deny an action behind it: "clearance not given"."""
-    if _DENIED.isdisjoint(texts[after : after + 3]):
-        return after
-    while after < len(texts) and (texts[after] in _DENIED or texts[after] in ("clearance", "is")):
-        after += 1
-    return after
 
 
 def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:

@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
 from airhilt.phraseology.alphabet import LETTER_OF
+from airhilt.phraseology.call import CLEARANCES
+from airhilt.phraseology.denials import BETWEEN
 from airhilt.phraseology.forms import Form
 from airhilt.phraseology.ground import route, taxi, vacate
 from airhilt.phraseology.hits import NAME
@@ -43,6 +45,8 @@ _HAPPENED = frozenset(
      "rolls", "goes"}
 )  # fmt: skip
 """Last words of a condition, behind which a route may begin."""
+_INCOMPLETE = frozenset({"be", "been", "is", "are", "was", "were", "to", "your", "cleared"})
+"""Words of an event that go on with a clearance."""
 LONGEST_STATION = 6
 """Most words from "contact" to the frequency."""
 RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
@@ -185,7 +189,8 @@ class Scan:
             is_others = word.endswith("ing") and each.form.action != "visual_separation"
             if is_others and index - self._begun <= longest and not self._is_own(each):
                 return each.match.end()
-            if self._texts[index - 1] in CONDITIONS:
+            inner = self._texts[self._begun + 1 : index]
+            if not self._is_traffic and (not inner or self._is_in_condition(each, inner)):
                 return 0
             end = start
             if self._is_traffic:
@@ -195,6 +200,14 @@ class Scan:
             self._close(end)
         self.found.append(each)
         return each.match.end()
+
+    def _is_in_condition(self, each: Found, inner: list[str]) -> bool:
+        """Return whether a clearance is a part of the event that something else waits for.
+
+        That of "once you are cleared to land" is.
+        """
+        is_open = inner[-1] in _INCOMPLETE or BETWEEN.issuperset(inner)
+        return is_open and each.form.action in CLEARANCES
 
     def _is_own(self, each: Found) -> bool:
         """Return whether a pilot lines up, or crosses, behind whom the condition names.
@@ -279,9 +292,11 @@ def _action_at(texts: list[str], text: str, start: int, index: int) -> Found | N
 def _belongs_to(last: Found, each: Found) -> bool:
     """Return whether the words of an action are a detail of the one before.
 
-    They are the frequency of a station to contact, the route of a taxi clearance, the side of a
+    They are what an animal does, the frequency of a station to contact, the route of a taxi clearance, the side of a
     turn off the runway, and the speed of a crossing restriction.
     """
+    if last.form.action == "wildlife" and each.match[0].endswith("ing"):
+        return last.match.end() + 1 == each.match.start()
     if each.form.build is route:
         return last.form.build is taxi
     if each.form.build is taxiway_turn:
