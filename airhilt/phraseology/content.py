@@ -13,18 +13,17 @@ from airhilt.phraseology.bare_values import bare_values, without_courtesies
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
 from airhilt.phraseology.conditions import (
     YIELDED,
-    Reads,
+    Clause,
     attach,
     merge_levels,
     put_in_order,
     withdraw,
-    without_goals,
 )
 from airhilt.phraseology.denials import ASKS, end_of_denial, is_expected, is_meant
-from airhilt.phraseology.forms import Read, Segment
+from airhilt.phraseology.forms import Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
-from airhilt.phraseology.scan import Found, Scan, Span
+from airhilt.phraseology.scan import Scan, Span
 from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown, has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
@@ -78,40 +77,38 @@ def content_of(words: Words) -> Content:
     plain = text
     for span in conditions:
         plain = _blank(plain, span)
-    reads = _reads(scan, texts, plain, starts)
-    if conditions:
-        attach(conditions, reads, text)
-    without_goals(reads)
-    if len(reads) > 1:
-        merge_levels(reads, plain)
-        withdraw(reads)
-    put_in_order(reads, texts, text)
-    gaps = _gaps(reads, scan, plain, starts, words)
+    clauses = _clauses(scan, texts, plain, starts)
+    attach(conditions, clauses, text)
+    merge_levels(clauses, plain)
+    withdraw(clauses)
+    put_in_order(clauses, texts, text)
+    gaps = _gaps(clauses, scan, plain, starts, words)
     if gaps:
-        _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
+        _take_bare(content, gaps, clauses, scan, text, is_called=texts[:1] == [NAME])
     is_sure = words.confidences.count(1.0) == len(texts)
-    for read, each in reads:
-        is_beside = bool(gaps) and _is_beside_unexplained(read, plain, reads)
-        heard = CLEAR if is_sure else _confidences(read, each, words, starts)
-        for told in (read.instruction, *read.more):
+    for clause in clauses:
+        is_beside = bool(gaps) and _is_beside_unexplained(clause, plain, clauses)
+        heard = CLEAR if is_sure else _confidences(clause, words, starts)
+        for told in (clause.told, *clause.more):
             sure = told.confidence
-            if is_beside or _is_doubtful(told, plain, read, each):
+            if is_beside or _is_doubtful(told, plain, clause):
                 sure = min(sure, SHORTENED)
             if sure != told.confidence or heard != CLEAR:
                 told = _heard(told, sure, *heard)
-            if read.is_expected:
+            if clause.is_expected:
                 content.expected.append(told)
             else:
-                _add(content, told, is_doing=texts[each.first].endswith("ing"))
+                _add(content, told, is_doing=texts[clause.found.first].endswith("ing"))
     return content
 
 
-def _confidences(read: Read, each: Found, words: Words, starts: list[int]) -> tuple[float, float]:
+def _confidences(clause: Clause, words: Words, starts: list[int]) -> tuple[float, float]:
     """Return the least confidences of the recogniser in an action and in its details."""
-    begin, end = bisect_right(starts, read.start) - 1, bisect_right(starts, read.end - 1)
-    after_action = bisect_right(starts, each.match.end() - 1)
-    details = min(_least(words, begin, each.first), _least(words, after_action, end))
-    return _least(words, each.first, after_action), details
+    found = clause.found
+    begin, end = bisect_right(starts, clause.start) - 1, bisect_right(starts, clause.end - 1)
+    after_action = bisect_right(starts, found.match.end() - 1)
+    details = min(_least(words, begin, found.first), _least(words, after_action, end))
+    return _least(words, found.first, after_action), details
 
 
 def _least(words: Words, start: int, end: int) -> float:
@@ -119,7 +116,7 @@ def _least(words: Words, start: int, end: int) -> float:
     return min([1.0 if word in IDLE else confidence for word, confidence in said], default=1.0)
 
 
-def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
+def _is_doubtful(told: Instruction, text: str, clause: Clause) -> bool:
     """Return whether words may be missing that change what an instruction means.
 
     They are the side of a runway, the "are" of a question, and a condition of which one unknown
@@ -127,20 +124,20 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     be of the name of one: "deer park".
     """
     if told.action == "wildlife" and told.runway is None and told.position is None:
-        behind = text[read.end :].split(maxsplit=1)
+        behind = text[clause.end :].split(maxsplit=1)
         if behind and is_unknown(behind[0]):
             return True
-        if _VIA.search(text, 0, read.start) and _OF_PROCEDURE.match(text, read.end):
+        if _VIA.search(text, 0, clause.start) and _OF_PROCEDURE.match(text, clause.end):
             return True
-    if told.runway is not None and has_unknown_side(text, read.start, read.end):
+    if told.runway is not None and has_unknown_side(text, clause.start, clause.end):
         return True
     if " or " in text and (
-        _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end)
+        _OR.match(text, clause.end) or _OR_INSIDE.search(text, clause.found.match.end(), clause.end)
     ):
         return True
-    if told.action in _VALUED and has_unknown(text[each.match.end() : read.end].split()):
+    if told.action in _VALUED and has_unknown(text[clause.found.match.end() : clause.end].split()):
         return True
-    before = text[: min(read.start, each.match.start())].rsplit(maxsplit=2)[-2:]
+    before = text[: min(clause.start, clause.found.match.start())].rsplit(maxsplit=2)[-2:]
     if not before or told.action in REPORTS:
         return False
     if told.action in CLEARANCES and before[-1] in ("we", "i"):
@@ -152,15 +149,15 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     )
 
 
-def _is_beside_unexplained(read: Read, text: str, reads: Reads) -> bool:
+def _is_beside_unexplained(clause: Clause, text: str, clauses: list[Clause]) -> bool:
     """Return whether words right beside an instruction belong to no other and are unexplained."""
-    action = read.instruction.action
-    limit = min((other.start for other, _ in reads if other.start >= read.end), default=len(text))
-    if limit > read.end + 1 and is_unexplained_behind(text[read.end : limit].split(), action):
+    action = clause.told.action
+    limit = min((other.start for other in clauses if other.start >= clause.end), default=len(text))
+    if limit > clause.end + 1 and is_unexplained_behind(text[clause.end : limit].split(), action):
         return True
-    begin = max((other.end for other, _ in reads if other.end <= read.start), default=0)
-    return begin + 1 < read.start and is_unexplained_before(
-        text[begin : read.start].split(), action
+    begin = max((other.end for other in clauses if other.end <= clause.start), default=0)
+    return begin + 1 < clause.start and is_unexplained_before(
+        text[begin : clause.start].split(), action
     )
 
 
@@ -187,9 +184,11 @@ class _Gap(NamedTuple):
     """Least confidence of the recogniser in them."""
 
 
-def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) -> list[_Gap]:
+def _gaps(
+    clauses: list[Clause], scan: Scan, text: str, starts: list[int], words: Words
+) -> list[_Gap]:
     """Return the words between the actions, without courtesies."""
-    taken = [(read.start, read.end) for read, _ in reads]
+    taken = [(each.start, each.end) for each in clauses]
     taken += [(span.start, span.end) for span in scan.spans]
     taken.append((len(text), len(text)))
     gaps: list[_Gap] = []
@@ -207,23 +206,29 @@ def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) 
 
 
 def _take_bare(
-    content: Content, gaps: list[_Gap], reads: Reads, scan: Scan, text: str, *, is_called: bool
+    content: Content,
+    gaps: list[_Gap],
+    clauses: list[Clause],
+    scan: Scan,
+    text: str,
+    *,
+    is_called: bool,
 ) -> None:
     """Add the routes and values that stand alone.
 
     Values alone are read back: a call that begins with its callsign has none.
     """
-    beside = {read.instruction.action for read, _ in reads if not read.is_expected}
-    has_route = any(read.instruction.via for read, _ in reads) or NAME not in text
-    if is_called and not reads and len(gaps) > 1:
+    beside = {each.told.action for each in clauses if not each.is_expected}
+    has_route = any(each.told.via for each in clauses) or NAME not in text
+    if is_called and not clauses and len(gaps) > 1:
         return
     for gap in gaps:
         if not gap.words:
             continue
-        before = max((read for read, _ in reads if read.end <= gap.start + 1),
-                     key=lambda read: read.end, default=None)  # fmt: skip
+        before = max((each for each in clauses if each.end <= gap.start + 1),
+                     key=lambda each: each.end, default=None)  # fmt: skip
         is_behind = before is not None and not text[before.end : gap.start].strip()
-        last = before.instruction.action if before is not None and is_behind else None
+        last = before.told.action if before is not None and is_behind else None
         route = (
             None
             if has_route or (is_called and not beside)
@@ -244,7 +249,7 @@ def _take_bare(
             content.pressure_hpa = content.pressure_hpa or bare.pressure_hpa
             for each in bare.instructions:
                 if is_level and before is not None:  # It waits for what the heading waits for.
-                    each = replace(each, condition=before.instruction.condition)
+                    each = replace(each, condition=before.told.condition)
                 told = _heard(each, each.confidence, gap.heard, gap.heard)
                 _add(content, told, is_doing=False)
 
@@ -258,12 +263,12 @@ def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
     return None
 
 
-def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads:
+def _clauses(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> list[Clause]:
     """Return the instructions of the actions that are meant.
 
     The words that lead to an action are those of its clause alone, without its condition.
     """
-    reads: Reads = []
+    clauses: list[Clause] = []
     taken, floor, is_said = 0, 0, True
     found = scan.found
     aside = {
@@ -286,12 +291,12 @@ def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads
             lead, texts[each.first : after], texts[after:], action,
             before_is_meant=is_said, is_question=is_question,
         )  # fmt: skip
-        if is_said:
-            reads.append((read, each))
-        elif action not in REPORTS and is_expected(lead):
-            reads.append((read._replace(is_expected=True), each))
+        is_later = read.is_expected or (not is_said and action not in REPORTS and is_expected(lead))
+        if is_said or is_later:
+            told, start, end, more, _ = read
+            clauses.append(Clause(told, more, each, start, end, is_later))
         floor = after + (0 if is_said else end_of_denial(texts[after:]))
-    return reads
+    return clauses
 
 
 def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:

@@ -76,11 +76,12 @@ _ASKING = frozenset(
     for second in seconds.split()
 )  # fmt: skip
 """Word pairs before an action that is asked about or asked for: "are you", "ready for"."""
+_WITHDRAWN = (
+    "clearance", "takeoff", "landing", "crossing", "taxi", "up", "pushback", "push", "approach",
+    "is", "been", "hold", "descent", "climb", "route", "it", "that",
+)  # fmt: skip
 _BEFORE_IT = frozenset(
-    {*((word, "cancelled") for word in (
-        "clearance takeoff landing crossing taxi up pushback push approach is been hold descent"
-        " climb route it that"
-    ).split()),
+    {*((word, "cancelled") for word in _WITHDRAWN),
      *((word, "request") for word in ("that", "your", "the"))}
 )  # fmt: skip
 """Word pairs right before an action that deny what is before them: "crossing cancelled, hold
@@ -169,7 +170,7 @@ def is_expected(lead: Sequence[str]) -> bool:
     words = list(lead)
     while words and (words[-1] in BETWEEN or words[-1] in ("on", "that")):
         words.pop()
-    if not words or words[-2:-1] and words[-2] in DENIALS:
+    if not words or (words[-2:-1] and words[-2] in DENIALS):
         return False
     return words[-1] in EXPECTS or words[-2:] == ["be", "ready"]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import cast
 
 from airhilt.phraseology.alphabet import LETTER_OF, LETTERS

@@ -48,7 +48,9 @@ _POINT = re.compile(
     rf" (?:at |of )?(?:the )?(?:taxiway |intersection |(?:holding )?(?:point|decimal) )?({TAXIWAY})"
 )
 _LINK = re.compile(rf" (?:of |at )?({NUMBERED_LINK})")
-_DOUBLE_POINT = re.compile(rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER}(?: [0-9]{{1,2}}(?!\S))?)(?= ?(?:$|\||#))")
+_DOUBLE_POINT = re.compile(
+    rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER}(?: [0-9]{{1,2}}(?!\S))?)(?= ?(?:$|\||#))"
+)
 """Taxiway of two letters, with or without a number, behind which the call ends."""
 _OF_LANDING = re.compile(r"(?<!\S)(?:land|landing|final|around)(?!\S)")
 """Words of an approach, which "continue" belongs to."""
