@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
+from airhilt.phraseology.clauses import Found, Span
 from airhilt.phraseology.forms import BARE_RUNWAY, DEPARTED, LONG_NAME, NO_VALUE
-from airhilt.phraseology.scan import Found, Span
 
 
 @dataclass(slots=True)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
 from dataclasses import dataclass, field, fields, replace
-from itertools import accumulate
 from typing import NamedTuple
 
 from airhilt.phraseology.bare_routes import bare_route
 from airhilt.phraseology.bare_values import bare_values, without_courtesies
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
+from airhilt.phraseology.clauses import Line, Span
 from airhilt.phraseology.conditions import (
     YIELDED,
     Clause,
@@ -23,7 +22,6 @@ from airhilt.phraseology.denials import ASKS, end_of_denial, is_expected, is_mea
 from airhilt.phraseology.forms import Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
-from airhilt.phraseology.scan import Scan, Span
 from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown, has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
@@ -43,10 +41,6 @@ _VALUED = frozenset({"altitude", "heading", "speed", *CLEARANCES} - {"taxi", "cl
 """Actions whose value stands near their words, without unknown words between."""
 _PASSING = re.compile(r" ?(?:climbing|descending)(?!\S)")
 """Words behind a level that is only passed."""
-IDLE = frozenset({"and", "the"})
-"""Words without which an action means the same, however surely they were heard."""
-CLEAR = (1.0, 1.0)
-"""Confidences of a recogniser that has no doubt about the action and its details."""
 
 
 @dataclass(slots=True)
@@ -64,56 +58,46 @@ class Content:
 
 def content_of(words: Words) -> Content:
     """Return the meaning of words without corrections."""
-    texts = words.texts
-    text = " ".join(texts)
-    starts = [0, *accumulate([len(word) + 1 for word in texts])]
-    scan = Scan(texts, text, starts)
+    line = Line(words)
+    text = line.text
     content = Content()
-    for span in scan.spans:
+    for span in line.spans:
         if span.is_traffic:
             content.traffic.append(text[span.start : span.end].strip())
             text = _blank(text, span)
-    conditions = [span for span in scan.spans if not span.is_traffic]
+    conditions = [span for span in line.spans if not span.is_traffic]
     plain = text
     for span in conditions:
         plain = _blank(plain, span)
-    clauses = _clauses(scan, texts, plain, starts)
+    clauses = _clauses(line, plain)
     attach(conditions, clauses, text)
     merge_levels(clauses, plain)
     withdraw(clauses)
-    put_in_order(clauses, texts, text)
-    gaps = _gaps(clauses, scan, plain, starts, words)
+    put_in_order(clauses, line.texts, text)
+    gaps = _gaps(clauses, line, plain)
     if gaps:
-        _take_bare(content, gaps, clauses, scan, text, is_called=texts[:1] == [NAME])
-    is_sure = words.confidences.count(1.0) == len(texts)
+        _take_bare(content, gaps, clauses, line, text)
     for clause in clauses:
         is_beside = bool(gaps) and _is_beside_unexplained(clause, plain, clauses)
-        heard = CLEAR if is_sure else _confidences(clause, words, starts)
+        heard = _confidences(clause, line)
         for told in (clause.told, *clause.more):
-            sure = told.confidence
-            if is_beside or _is_doubtful(told, plain, clause):
-                sure = min(sure, SHORTENED)
-            if sure != told.confidence or heard != CLEAR:
-                told = _heard(told, sure, *heard)
+            is_doubtful = is_beside or _is_doubtful(told, plain, clause)
+            sure = min(told.confidence, SHORTENED) if is_doubtful else told.confidence
+            told = _heard(told, sure, *heard)
             if clause.is_expected:
                 content.expected.append(told)
             else:
-                _add(content, told, is_doing=texts[clause.found.first].endswith("ing"))
+                _add(content, told, is_doing=line.texts[clause.found.first].endswith("ing"))
     return content
 
 
-def _confidences(clause: Clause, words: Words, starts: list[int]) -> tuple[float, float]:
+def _confidences(clause: Clause, line: Line) -> tuple[float, float]:
     """Return the least confidences of the recogniser in an action and in its details."""
     found = clause.found
-    begin, end = bisect_right(starts, clause.start) - 1, bisect_right(starts, clause.end - 1)
-    after_action = bisect_right(starts, found.match.end() - 1)
-    details = min(_least(words, begin, found.first), _least(words, after_action, end))
-    return _least(words, found.first, after_action), details
-
-
-def _least(words: Words, start: int, end: int) -> float:
-    said = zip(words.texts[start:end], words.confidences[start:end], strict=True)
-    return min([1.0 if word in IDLE else confidence for word, confidence in said], default=1.0)
+    begin, end = line.index(clause.start), line.index(clause.end - 1) + 1
+    after_action = line.index(found.match.end() - 1) + 1
+    details = min(line.heard(begin, found.first), line.heard(after_action, end))
+    return line.heard(found.first, after_action), details
 
 
 def _is_doubtful(told: Instruction, text: str, clause: Clause) -> bool:
@@ -184,21 +168,16 @@ class _Gap(NamedTuple):
     """Least confidence of the recogniser in them."""
 
 
-def _gaps(
-    clauses: list[Clause], scan: Scan, text: str, starts: list[int], words: Words
-) -> list[_Gap]:
+def _gaps(clauses: list[Clause], line: Line, text: str) -> list[_Gap]:
     """Return the words between the actions, without courtesies."""
     taken = [(each.start, each.end) for each in clauses]
-    taken += [(span.start, span.end) for span in scan.spans]
-    taken.append((len(text), len(text)))
+    taken += [(span.start, span.end) for span in line.spans]
     gaps: list[_Gap] = []
     at = 0
-    taken.sort()
-    for start, end in taken:
+    for start, end in (*sorted(taken), (len(text), len(text))):
         gap = text[at:start].strip(" |")
         if gap:
-            first, last = bisect_right(starts, at - 1), bisect_right(starts, start - 1)
-            heard = min(words.confidences[first:last], default=1.0)
+            heard = line.heard(line.index(at - 1) + 1, line.index(start - 1) + 1)
             said = without_courtesies(PRESSURE.sub("", gap).split())
             gaps.append(_Gap(at, start, gap.split()[0], said, heard))
         at = max(at, end)
@@ -206,18 +185,13 @@ def _gaps(
 
 
 def _take_bare(
-    content: Content,
-    gaps: list[_Gap],
-    clauses: list[Clause],
-    scan: Scan,
-    text: str,
-    *,
-    is_called: bool,
+    content: Content, gaps: list[_Gap], clauses: list[Clause], line: Line, text: str
 ) -> None:
     """Add the routes and values that stand alone.
 
     Values alone are read back: a call that begins with its callsign has none.
     """
+    is_called = line.texts[:1] == [NAME]
     beside = {each.told.action for each in clauses if not each.is_expected}
     has_route = any(each.told.via for each in clauses) or NAME not in text
     if is_called and not clauses and len(gaps) > 1:
@@ -234,24 +208,23 @@ def _take_bare(
             if has_route or (is_called and not beside)
             else bare_route(gap.words, beside, last, is_joined=gap.first in ("and", "then"))
         )
+        values: list[Instruction] = []
         if route is not None:
-            condition = _condition_before(gap.start, scan.spans, text)
+            condition = _condition_before(gap.start, line.spans, text)
             if condition is None and last in YIELDED:
                 condition = "then"
-            route = replace(route, condition=condition)
-            told = _heard(route, route.confidence, gap.heard, gap.heard)
-            _add(content, told, is_doing=False)
+            values = [replace(route, condition=condition)]
         elif not _PASSING.match(text, gap.end):
             is_level = last == "heading" and LEVEL.fullmatch(" ".join(gap.words)) is not None
             if is_called and not is_level:
                 continue
             bare = bare_values(gap.words, beside, last)
             content.pressure_hpa = content.pressure_hpa or bare.pressure_hpa
-            for each in bare.instructions:
-                if is_level and before is not None:  # It waits for what the heading waits for.
-                    each = replace(each, condition=before.told.condition)
-                told = _heard(each, each.confidence, gap.heard, gap.heard)
-                _add(content, told, is_doing=False)
+            values = bare.instructions
+            if is_level and before is not None:  # It waits for what the heading waits for.
+                values = [replace(each, condition=before.told.condition) for each in values]
+        for each in values:
+            _add(content, _heard(each, each.confidence, gap.heard, gap.heard), is_doing=False)
 
 
 def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
@@ -263,19 +236,19 @@ def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
     return None
 
 
-def _clauses(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> list[Clause]:
-    """Return the instructions of the actions that are meant.
+def _clauses(line: Line, plain: str) -> list[Clause]:
+    """Return the clauses whose action is meant.
 
     The words that lead to an action are those of its clause alone, without its condition.
     """
     clauses: list[Clause] = []
+    texts, found = line.texts, line.found
     taken, floor, is_said = 0, 0, True
-    found = scan.found
     aside = {
         index
-        for span in scan.spans
+        for span in line.spans
         if not span.is_traffic
-        for index in range(bisect_right(starts, span.start) - 1, bisect_right(starts, span.end - 1))
+        for index in range(line.index(span.start), line.index(span.end - 1) + 1)
     }
     is_question = not ASKS.isdisjoint(texts[1:2] if texts[:1] == [NAME] else texts[:1])
     for index, each in enumerate(found):
@@ -285,7 +258,7 @@ def _clauses(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> lis
         if read is None:
             continue
         taken = read.end
-        after = bisect_right(starts, max(each.match.end(), read.end) - 1)
+        after = line.index(max(each.match.end(), read.end) - 1) + 1
         lead = [texts[at] for at in range(floor, each.first) if at not in aside]
         is_said = is_meant(
             lead, texts[each.first : after], texts[after:], action,

@@ -14,13 +14,13 @@ from airhilt.phraseology.aircraft_names import MAKERS
 from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.call import REPORTS, Call, Instruction, Kind
 from airhilt.phraseology.callsigns import Naming, roster_of
+from airhilt.phraseology.clauses import CONDITIONS
 from airhilt.phraseology.conditions import doubtful
 from airhilt.phraseology.content import Content
 from airhilt.phraseology.corrections import content_with_corrections, without_slips
 from airhilt.phraseology.forms import UNIT
 from airhilt.phraseology.hits import NAME, Hit
 from airhilt.phraseology.run_together import split_numbers
-from airhilt.phraseology.scan import CONDITIONS
 from airhilt.phraseology.slots import FIX_ENDS, LEVEL, NO_SENSE, SHORTENED, pressure_of, wind_of
 from airhilt.phraseology.spoken_forms import is_registration
 from airhilt.phraseology.words import MENDED, Words, words_of

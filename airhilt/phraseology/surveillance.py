@@ -246,11 +246,13 @@ FORMS: Listed = (
      r"|visual(?= \||$| cleared| from))", alone),
     ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
     ("report", "report",
-     r"(?<!wildlife )(?<!ride )(?:(?<!position )|(?<=hold position ))(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
+     r"(?<!wildlife )(?<!ride )(?:(?<!position )|(?<=hold position ))"
+     r"(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
      rf"report (?:(?:when|once|after) (?:you are |you )?|your |the (?=heading|speed|level))?"
      rf"(?:(?P<event>{_EVENT})|(?P<other>{_OTHER}))", report),
     ("report advise call let tell", "report",
-     r"(?:report|advise(?: me)?|call me|let me know|tell me)(?:(?!)(?P<event>)(?P<other>))?(?= \||$)", report),
+     r"(?:report|advise(?: me)?|call me|let me know|tell me)(?:(?!)(?P<event>)(?P<other>))?"
+     r"(?= \||$)", report),
     ("say", "say",
      r"say (?:your |the )?(?:(?:present|current|indicated) )?"
      r"(?P<event>(?:assigned )?(?:altitude|level|airspeed|speed|heading)|position|intentions|type"

@@ -7,8 +7,8 @@ import re
 from airhilt.phraseology import denials
 from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
 from airhilt.phraseology.alphabet import LETTERS
+from airhilt.phraseology.clauses import CONDITIONS, EVENTS
 from airhilt.phraseology.numbers import DIGITS, TEENS, TENS
-from airhilt.phraseology.scan import CONDITIONS, EVENTS
 from airhilt.phraseology.slots import FIX_ENDS, RUNWAY
 from airhilt.phraseology.words import UNITS
 
