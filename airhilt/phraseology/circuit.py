@@ -51,8 +51,9 @@ FORMS: Listed = (
      on_leg),
     ("orbit orbiting", "orbit", r"orbit(?:ing)?(?: to the)?(?: (?P<turn>left|right))?", on_leg),
     ("left right", "orbit", r"(?P<turn>left|right) (?:hand )?(?:360(?= for)|orbit)", on_leg),
-    ("extend extending", "extend",
-     rf"extend(?:ing)?(?: (?:your|the|on|left|right|hand))* (?P<leg>{_LEG})(?: leg)?", on_leg),
+    ("extend extending continue", "extend",
+     rf"(?:extend(?:ing)?|continue(?! on))(?: (?:your|the|on|left|right|hand))* (?P<leg>{_LEG})"
+     r"(?: leg)?", on_leg),
     ("make making", "short_approach", r"mak(?:e|ing)(?: a)? short approach", alone),
     ("short", "short_approach", r"short approach approved", alone),
     ("make making join joining enter entering", "join",

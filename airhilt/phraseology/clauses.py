@@ -227,9 +227,9 @@ class Line:
         A clearance is in "once you are cleared to land".
         """
         inner = self.texts[aside.index + 1 : each.first]
-        is_whole = inner and inner[-1] not in _INCOMPLETE and not BETWEEN.issuperset(inner)
-        is_clearance = each.form.action in CLEARANCES
-        return not aside.is_traffic and not (is_whole if is_clearance else inner)
+        is_open = not inner or inner[-1] in _INCOMPLETE
+        is_cleared = each.form.action in CLEARANCES and BETWEEN.issuperset(inner)
+        return not aside.is_traffic and (is_open or is_cleared)
 
     def _end_before(self, aside: _Open, each: Found) -> int:
         """Return the end of words about traffic, or a condition, before an action.

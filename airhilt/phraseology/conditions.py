@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
+from airhilt.phraseology.call import CLEARANCES, REPORTS, STOPS, Action, Instruction
 from airhilt.phraseology.clauses import Found, Span
 from airhilt.phraseology.forms import BARE_RUNWAY, DEPARTED, LONG_NAME, NO_VALUE
 
@@ -52,8 +52,6 @@ _MOVED = frozenset({"taxi", "vacate", "cross", "hold_short", "backtrack", "push_
 """Actions on the ground that another unit waits for after "then"."""
 IN_FLIGHT: frozenset[Action] = frozenset({"heading", "direct", "turn_by"})
 """Actions that wait for the take-off that is cleared in the same call."""
-STOPS: frozenset[Action] = frozenset({"stop", "hold_position", "go_around", "cancel_takeoff"})
-"""Actions that wait for nothing while something else may."""
 WITHDRAWN: dict[Action, Action] = {
     "cancel_takeoff": "cleared_for_takeoff",
     "cancel_landing": "cleared_to_land",
@@ -145,7 +143,8 @@ def _owners(
         return after or ([] if _CONSEQUENCE.search(words) else last)
     if before and before.is_expected and _IN_A_WHILE.fullmatch(between):
         return last
-    if before and after and before.told.action in STOPS:
+    is_report = bool(after) and after[0].told == Instruction("report")
+    if after and (is_report or (before and before.told.action in STOPS)):
         return after[:1]
     if _FREE.match(words):
         is_departure = kind == "on" and before and before.told.action in CLEARANCES

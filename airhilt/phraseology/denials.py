@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from airhilt.phraseology.call import CLEARANCES, REPORTS, Action
+from airhilt.phraseology.call import CLEARANCES, REPORTS, STOPS, Action
 from airhilt.phraseology.hits import NAME
 
 DENIALS = frozenset(
@@ -56,7 +56,7 @@ BETWEEN = frozenset(
      "is", "it", "cleared", "clear", "longer", "currently", "actually", "really"}
 )  # fmt: skip
 """Words that may stand between a denial and its action."""
-STOPS = DENIALS | OPEN | {"delay"}
+NEVER_PASSED = DENIALS | OPEN | {"delay"}
 """Words that are never passed over."""
 AFTERWARDS = frozenset({"cancelled", "denied", "revoked", "withdrawn", "not", "negative", "was"})
 """Words after a clearance that deny it: "cleared to land, cancelled"."""
@@ -133,7 +133,7 @@ def is_meant(
     if at and tuple(lead[at : at + 2]) == ("no", NAME):
         return True  # The speaker corrects the callsign: "Delta, no, United 914".
     if word in DENIALS:
-        return False
+        return lead[-1] == "unable" and action in STOPS
     if action not in CLEARANCES and tuple(lead[at : at + 2]) == ("need", "you"):
         return True  # "I need you to turn left".
     return word not in OPEN or action in REPORTS
@@ -151,7 +151,7 @@ def _governing(lead: Sequence[str], *, is_clearance: bool) -> int | None:
             continue
         if word == "on" and at and lead[at - 1] in EXPECTS:
             continue
-        if not skips or word in STOPS or at == 0:
+        if not skips or word in NEVER_PASSED or at == 0:
             return at
         skips = word == "or"
     return None

@@ -144,7 +144,7 @@ IMMEDIATE = frozenset({"immediate", "immediately", "expedite", "expediting", "no
 _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
 _NO_NAME = re.compile(rf"(?!waypoint )(?:{FIX_ENDS}|left|right|to|[0-9]+)(?!\S)")
 """The first word of a fix that is a word of the phraseology: the name itself may be lost."""
-_NAME_ENDS_HERE = re.compile(rf" (?:\||{FIX_ENDS})(?!\S)|$")
+_NAME_ENDS_HERE = re.compile(rf" (?:\||#+|{FIX_ENDS})(?!\S)|$")
 
 
 def is_immediate(segment: Segment, end: int) -> bool:

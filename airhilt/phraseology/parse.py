@@ -76,7 +76,7 @@ _PLACED = frozenset(
 NAMED_AFTER = CONDITIONS | {
     "traffic", "follow", "to", "for", "by", "with", "from", "of", "the", "is", "and", "company",
     "ahead", "via", "taxi", "exit", "vacate", "taxiway", "intersection", "at", "on", "number",
-    "than", "or", "departed", "landed",
+    "than", "or", "departed", "landed", "decimal",
 }  # fmt: skip
 """Words before a callsign that is not the one called."""
 AHEAD = frozenset({"follow", "following", "behind", "landing", "departing", "passing"})

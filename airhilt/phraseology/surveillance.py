@@ -76,17 +76,20 @@ def contact(segment: Segment, action: Action) -> Read | None:
         khz, confidence, found = frequency_khz(f"1{mhz}", fraction), sure, without_hundred
     if station is None and khz is None:
         return None
+    is_known = action == "contact" and _IS_KNOWN.match(segment.text, segment.found.end())
     read = Instruction(
         action,
         position=station,
         frequency_khz=khz,
-        confidence=confidence if khz else NO_VALUE,
+        confidence=confidence if khz else BARE_VALUE if is_known else NO_VALUE,
     )
     end = found.end() if found else 0
     return Read(read, segment.start, segment.found.end() + end)
 
 
 _NO_FREQUENCY = r"(?!\S)(?! (?:left|right|centre|knots|miles?|degrees|thousand|feet|oclock))"
+_IS_KNOWN = re.compile(r" ?(?:\||$|#|(?:when|once|on the|now|good|then|and)(?!\S))")
+"""Words behind a unit whose frequency the pilot knows (FAA Order JO 7110.65, 2-1-17)."""
 _BY_NUMBER = re.compile(r"(?:contact|monitor)(?:ing)?$")
 _SHORT_JOINED = re.compile(
     rf" (?:on |at |frequency )*(1[89]|2[0-9]|3[0-6])(?: decimal )?([0-9]{{1,3}}){_NO_FREQUENCY}"

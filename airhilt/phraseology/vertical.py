@@ -8,6 +8,7 @@ from typing import cast
 from airhilt.phraseology.call import Action, Bound, Instruction, Sense
 from airhilt.phraseology.forms import (
     BARE_VALUE,
+    IMMEDIATE,
     NO_VALUE,
     Listed,
     Read,
@@ -147,6 +148,8 @@ def altitude(segment: Segment, action: Action) -> Read | None:
         taken = 0
     if feet is None and sense in ("maintain", None):
         return None
+    if feet is None and after.strip() in IMMEDIATE:
+        confidence = 1.0  # A traffic alert names no level (FAA Order JO 7110.65, 2-1-6).
     if taken and sense in ("climb", "descend") and after.startswith(" at "):
         confidence = min(confidence, SHORTENED)  # It may be a rate whose unit is lost.
     end = segment.found.end() + taken

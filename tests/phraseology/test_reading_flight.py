@@ -226,7 +226,7 @@ def test_a_frequency_may_lack_its_hundred_or_its_point_but_not_for_certain(
         ("contact eighteen three", None, 118_300, 0.75),
         ("contact tower one eighteen three", "tower", 118_300, 0.85),
         ("monitor ground decimal nine", "ground", 121_900, 0.85),
-        ("contact tower", "tower", None, 0.6),
+        ("contact tower", "tower", None, 0.85),
     ]:
         with subtests.test(text):
             contact = only(text)
