@@ -43,8 +43,10 @@ CLEARANCES: frozenset[Action] = frozenset(
 """Actions that need a clearance, and are therefore never guessed."""
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
 """Actions that are reports."""
-STOPS: frozenset[Action] = frozenset({"stop", "hold_position", "go_around", "cancel_takeoff"})
-"""Actions that end what was cleared. They wait for nothing while something else may."""
+STOPS: frozenset[Action] = frozenset(
+    {"stop", "hold_position", "hold_short", "go_around", "cancel_takeoff"}
+)
+"""Actions that end what was cleared, or keep off a runway, and so wait for no event."""
 BESIDES: frozenset[Action] = frozenset(
     {"ident", "visual_separation", "mach", "vertical_rate", "resume_speed",
      "no_speed_restrictions", "cross_fix"}

@@ -49,7 +49,8 @@ _AHEAD = re.compile(
     rf"(?<!crossing )(?<!the )(?<!\S){SIDED_RUNWAY})(?: at \S+)? $"
 )
 _TRAFFIC_NOT = frozenset({"pattern", "alert", "circuit"})
-_BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make"})
+_BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make", "follow", "following", "way"})
+_ARTICLES = frozenset({"the", "that", "to"})
 _VERB = (
     r"(?: (?:climb|descend|turn|fly|reduce|increase|slow|contact|monitor|proceed|maintain|speed"
     r"|hold|cleared|expedite|direct|cross|resume|squawk|heading)(?!\S))"
@@ -278,9 +279,13 @@ LETTER_AT = re.compile(rf"at {TAXIWAY}(?!\S)")
 
 
 def _is_traffic(texts: list[str], index: int) -> bool:
-    """Return whether the word "traffic" here means aircraft, not a traffic circuit."""
-    return texts[index - 1 : index] not in ([each] for each in _BEFORE_CIRCUIT) and not (
-        _TRAFFIC_NOT.intersection(texts[index + 1 : index + 2])
+    """Return whether the word "traffic" begins words about aircraft.
+
+    It begins none in a traffic circuit, or as whom to follow or give way to.
+    """
+    before = [each for each in texts[max(index - 3, 0) : index] if each not in _ARTICLES]
+    return _BEFORE_CIRCUIT.isdisjoint(before[-1:]) and _TRAFFIC_NOT.isdisjoint(
+        texts[index + 1 : index + 2]
     )
 
 

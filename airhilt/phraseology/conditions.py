@@ -144,7 +144,7 @@ def _owners(
     if before and before.is_expected and _IN_A_WHILE.fullmatch(between):
         return last
     is_report = bool(after) and after[0].told == Instruction("report")
-    if after and (is_report or (before and before.told.action in STOPS)):
+    if is_report or (before and before.told.action in STOPS):
         return after[:1]
     if _FREE.match(words):
         is_departure = kind == "on" and before and before.told.action in CLEARANCES

@@ -49,7 +49,8 @@ _EACH_TAXIWAY = re.compile(rf"(?<!\S){_PIECE}")
 _NOT_PLACE = "runway|to|via|and|then|cleared|wind|line|hold|from|at|coming|off"
 _PLACE = re.compile(
     rf" (?:to )?(?:the )?((?!(?:{_NOT_PLACE})(?!\S))[a-z]+"
-    rf"(?: (?!(?:{_NOT_PLACE}|{LETTERS_OF})(?!\S))[a-z]+){{0,3}}(?: [0-9]+)?|[0-9]{{2,4}})(?!\S)"
+    rf"(?: (?!(?:{_NOT_PLACE}|{LETTERS_OF})(?!\S))[a-z]+){{0,3}}(?: [0-9]+(?! miles?))?"
+    r"|[0-9]{2,4})(?!\S)"
 )
 """Another aircraft; a letter behind its name belongs to a route."""
 _FOLLOWED_TO = re.compile(rf"(?: [a-z]+){{0,4}} to (?:runway )?{RUNWAY}")

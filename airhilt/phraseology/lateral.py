@@ -180,7 +180,7 @@ FORMS: Listed = (
     ("stop", "heading", rf"stop (?:the |your )?turn(?: at| on)?(?: heading)? {_HEADING}", heading),
     ("fly flying", "heading", rf"fly(?:ing)? heading {_HEADING}", heading),
     ("heading", "heading", rf"heading {_HEADING}", heading),
-    ("resume own", "own_navigation", r"(?:resume (?:your )?)?own nav(?:igation)?", alone),
+    ("resume own", "own_navigation", r"(?:resume (?:your )?)?own (?:navigation|nav)", alone),
     ("direct", "direct", rf"direct(?: to)?(?: the)?(?: (?P<fix>{FIX}))?", direct),
     ("intercept", "heading", r"intercept", nothing),
 )  # fmt: skip

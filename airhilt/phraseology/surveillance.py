@@ -165,15 +165,16 @@ def hold_on(segment: Segment, action: Action) -> Read | None:
 def report(segment: Segment, action: Action) -> Read | None:
     """Read what is to be reported, in words."""
     event = segment.found["event"]
-    if event is None and segment.found["other"] is None:  # The event stands before it.
+    other = segment.found.groupdict().get("other")
+    if event is None and other is None:  # The event stands before it.
         return Read(Instruction(action), segment.start, segment.found.end())
-    what = (event or segment.found["other"]).strip()
+    what = (event or other or "").strip()
     if _SEEN.fullmatch(what):
         is_field = _FIELD.search(segment.before_all) is not None
         what = "field in sight" if is_field else "traffic in sight"
     is_whole = _EVENT_ENDS.match(segment.text, segment.found.end()) is not None
     is_whole = is_whole and _SHORT_LEVEL.search(what) is None
-    is_named = event is not None and is_whole and not segment.found[0].startswith("advise when")
+    is_named = event is not None and is_whole and not event.startswith("when")
     read = Instruction(action, position=what, confidence=1.0 if is_named else LONG_NAME)
     return Read(read, segment.start, segment.found.end())
 
@@ -195,7 +196,7 @@ _EVENT = (
     r"|downwind|final|missed approach|approach))?"
     rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it|him|them|that traffic)"
     r" in sight"
-    rf"|in sight|turning (?:left |right )?(?:base|final|downwind|crosswind)"
+    rf"|in sight|(?:before )?turning (?:left |right )?(?:base|final|downwind|crosswind)"
     rf"|(?:passing|leaving|reaching|through|level|over|crossing|at) "
     rf"(?:the )?(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)"
     r"|(?:runway )?vacated|clear(?: of (?:the )?(?:runway|traffic|weather)(?! [0-9]))?|lined up"
@@ -217,9 +218,9 @@ FORMS: Listed = (
      nothing),
     ("ident", "ident", r"ident", alone),
     ("stop", "squawk", r"stop squawk", nothing),
-    ("advise call", "report",
-     r"(?:advise|call)(?: me)?(?: when you have)?"
-     r" (?P<event>(?:the )?(?:field|airport|runway|traffic) in sight)", report),
+    ("advise call let tell", "report",
+     rf"(?:advise|call|let|tell)(?: me| us)?(?: know)?(?: (?:when|once)(?: you are| you have)?|"
+     rf"(?= ready| [a-z ]+ in sight)) (?P<event>{_EVENT})", report),
     ("contact contacting call try", "contact",
      r"(?:contact(?:ing)?|call|try)"
      rf"(?P<station>(?: (?!(?:{FIX_ENDS}|me|my|frequency)(?!\S))[a-z]+){{1,2}}|)"
@@ -254,7 +255,7 @@ FORMS: Listed = (
      rf"report (?:(?:when|once|after) (?:you are |you )?|your |the (?=heading|speed|level))?"
      rf"(?:(?P<event>{_EVENT})|(?P<other>{_OTHER}))", report),
     ("report advise call let tell", "report",
-     r"(?:report|advise(?: me)?|call me|let me know|tell me)(?:(?!)(?P<event>)(?P<other>))?"
+     r"(?:report|advise(?: me)?|call(?: me)?|let me know|tell me)(?P<event>(?!))?"
      r"(?= \||$)", report),
     ("say", "say",
      r"say (?:your |the )?(?:(?:present|current|indicated) )?"
@@ -262,7 +263,7 @@ FORMS: Listed = (
      r"|mach(?: number)?|fuel remaining|souls on board(?: and fuel remaining)?)"
      r"(?: leaving| aircraft)?", said),
     ("advise", "report",
-     rf"advise (?P<event>when (?:able|ready|you can|clear|established)(?:(?: take| for)?"
+     rf"advise (?P<event>when (?:able|you can)(?:(?: take| for)?"
      rf" (?:direct(?: to)? {FIX}|higher|lower))?)", report),
 )  # fmt: skip
 """Forms of frequencies, transponders and reports."""

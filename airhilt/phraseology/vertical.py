@@ -264,7 +264,7 @@ def cross_fix(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, end, (kept,))
 
 
-_ALONG = re.compile(r" (?:on )?(?:runway|present) heading(?= to(?!\S))")
+_ALONG = re.compile(r" (?:(?:on )?(?:runway|present) heading|straight ahead)(?= to(?!\S))")
 """A heading between a climb and its level."""
 _PASSED = re.compile(r" through(?!\S)")
 """A level that is only passed: the climb or the descent goes on."""

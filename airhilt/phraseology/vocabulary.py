@@ -28,7 +28,8 @@ WORDS = frozenset(
     {*re.findall(r"[a-z]+", " ".join(_PATTERNS)), *LETTERS, *DIGITS, *TEENS, *TENS, *UNITS,
      *CONDITIONS, *COURTESIES, *denials.DENIALS, *denials.OPEN, *denials.SOMEBODY,
      *denials.OTHERS, *denials.BETWEEN, *denials.SPOKEN_OF, *denials.AFTERWARDS, "departing",
-     "winds", "surface", "waiting", "alert", "again", "incorrect"}
+     "winds", "surface", "waiting", "alert", "again", "incorrect",
+     "avoiding", "action"}
 ) - {"able"}  # fmt: skip
 """Words that the grammar knows. "Able" is none without its "when": that may be what is lost."""
 _RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY}")
