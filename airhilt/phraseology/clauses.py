@@ -126,7 +126,7 @@ class _Open(NamedTuple):
     """Words about traffic, or a condition, that may still go on."""
 
     start: int
-    index: int
+    first: int
     is_traffic: bool
 
 
@@ -218,7 +218,7 @@ class Line:
         return (
             self.texts[each.first].endswith("ing")
             and each.form.action != "visual_separation"
-            and each.first - aside.index <= longest
+            and each.first - aside.first <= longest
             and not is_readback
         )
 
@@ -227,7 +227,7 @@ class Line:
 
         A clearance is in "once you are cleared to land".
         """
-        inner = self.texts[aside.index + 1 : each.first]
+        inner = self.texts[aside.first + 1 : each.first]
         is_open = not inner or inner[-1] in _INCOMPLETE
         is_cleared = each.form.action in CLEARANCES and BETWEEN.issuperset(inner)
         return not aside.is_traffic and (is_open or is_cleared)
@@ -269,7 +269,7 @@ class Line:
         has_happened = self.texts[index - 1] in _HAPPENED and (
             word in LETTER_OF or word[0].isdigit()
         )
-        return word == "runway" or has_happened or index - aside.index >= LONGEST_CONDITION
+        return word == "runway" or has_happened or index - aside.first >= LONGEST_CONDITION
 
 
 AT_LEVEL = re.compile(rf"at {LEVEL_WORDS}(?!\S)")

@@ -97,7 +97,7 @@ def _wind(item: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value.get(name) for name in ("direction_deg", "speed_kt", "gust_kt")}
 
 
-def _in_circuit(item: Mapping[str, Any]) -> Mapping[str, Any]:
+def _in_circuit(item: dict[str, Any]) -> dict[str, Any]:
     """Return what an item of the kind "circuit" says by its manner: "left base", "short approach".
 
     The side of the circuit ("left traffic") is out of scope.
@@ -198,11 +198,10 @@ def facts_of_items(items: list[dict[str, Any]]) -> Iterator[tuple[Fact, str]]:
             yield Fact("stop", "now"), "report"
         if item["kind"] == "state":  # "Report speed" and "say speed" ask for one thing.
             yield _fact("report", "now", _words(item)), "report"
-            yield _fact("say", "now", _words(item)), "report"
+            yield _fact("say", "now", _asked(item["value"])), "report"
         if item["kind"] == "expedite":
             yield Fact("expedite", "now"), "report"
-        if item["kind"] == "circuit":
-            item = _in_circuit(item)
+        item = _in_circuit(item) if item["kind"] == "circuit" else item
         read = VALUES.get(item["kind"])
         if read is None:
             continue
@@ -316,7 +315,7 @@ def fact_of(said: Instruction, status: str) -> Fact:
         "vacate_runway": {"point": said.position, "turn": said.turn},
         "report": {"words": _tokens(said.position)},
         "orbit": {"turn": said.turn},
-        "say": {"words": _tokens(said.position)},
+        "say": _asked(said.position),
         "extend": {"leg": said.position},
         "join": {"runway": said.runway, "leg": said.position, "turn": said.turn},
     }
@@ -345,6 +344,11 @@ def _frequency_read(said: Instruction) -> dict[str, Any]:
         return {"frequency_khz": said.frequency_khz, "is_monitored": is_monitored}
     unit = said.position.split()[-1] if said.position else None
     return {"unit": unit, "is_monitored": is_monitored}
+
+
+def _asked(words: str | None) -> dict[str, Any]:
+    """Return what is to be said; an assigned value is asked for as the value is."""
+    return {"words": _tokens((words or "").removeprefix("assigned "))}
 
 
 def _fact(kind: str, status: str, values: Mapping[str, Any]) -> Fact:
