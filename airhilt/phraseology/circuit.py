@@ -18,7 +18,8 @@ _RUNWAY_BEHIND = re.compile(
     rf"(?: (?:for|to|on))?(?: the)?(?: circuit)? (?P<word>runway |(?={SIDED_RUNWAY})){RUNWAY}"
 )
 
-_CLEARED = re.compile(r" (?:cleared|clear|line|continue)(?!\S)")
+_ON_RUNWAY = frozenset({"join", "side_step", "return_to_field"})
+_CLEARED = re.compile(r" (?:cleared|clear|line)(?!\S)")
 
 
 def on_leg(segment: Segment, action: Action) -> Read | None:
@@ -27,10 +28,10 @@ def on_leg(segment: Segment, action: Action) -> Read | None:
     A runway right before another action is also that of a clearance.
     """
     parts = segment.found.groupdict()
-    runway = _RUNWAY_BEHIND.match(segment.after)
+    runway = _RUNWAY_BEHIND.match(segment.after) if action in _ON_RUNWAY else None
     end, sure = segment.found.end(), 1.0
     if runway is not None:
-        is_shared = _CLEARED.match(segment.text, segment.found.end() + runway.end())
+        is_shared = _CLEARED.match(segment.text, end + runway.end()) is not None
         end += 0 if is_shared else runway.end()
         sure = min(runway_confidence(runway[2]), 1.0 if runway["word"] else BARE_RUNWAY)
     read = Instruction(
@@ -47,8 +48,8 @@ _SIDE = r"(?:(?P<turn>left|right)(?: hand)? )?"
 FORMS: Listed = (
     ("make making do fly", "orbit",
      rf"(?:mak(?:e|ing)|do|fly) (?:(?:a|one|another) )?{_SIDE}(?:turn )?(?:a )?"
-     r"(?:360(?: degrees?)?(?: turn)?|orbit)(?: (?:to the |turn )?(?P<turn_behind>left|right))?",
-     on_leg),
+     r"(?:360(?: degrees?)?(?: turn(?! left| right))?|orbit)"
+     r"(?: (?:to the )?(?P<turn_behind>left|right))?", on_leg),
     ("orbit orbiting", "orbit", r"orbit(?:ing)?(?: to the)?(?: (?P<turn>left|right))?", on_leg),
     ("left right", "orbit", r"(?P<turn>left|right) (?:hand )?(?:360(?= for)|orbit)", on_leg),
     ("extend extending continue", "extend",

@@ -139,6 +139,8 @@ _OTHER_RUNWAY = re.compile(
     r"^ runway(?!\S)|(?<!\S)(?:hold|short|of|final|base|downwind|clear|crossing)(?!\S)"
 )
 """Words before a runway that is not that of the action, or after one that cannot be read."""
+_TO_RUNWAY = frozenset({"", "on", "onto", "on to", "into", "across", "to", "for"})
+"""Words between an action and its runway."""
 POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
 IMMEDIATE = frozenset({"immediate", "immediately", "expedite", "expediting", "now"})
 _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
@@ -270,7 +272,7 @@ def _runway_after(segment: Segment, *, is_named: bool) -> re.Match[str] | None:
     named = _named_runway(after)
     if named is None or _OTHER_RUNWAY.search(after[: named.start()]):
         return None
-    is_beside = after[: named.start()].strip() in ("", "on")
+    is_beside = after[: named.start()].strip() in _TO_RUNWAY
     is_next = is_next_runway(segment) and not (is_beside and not is_named)
     return None if is_next or (is_named and not is_beside) else named
 

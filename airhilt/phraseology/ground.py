@@ -297,7 +297,8 @@ FORMS: Listed = (
     ("hold", "hold_position", r"hold (?:your|the) taxi", alone),
     ("stop", "stop",
      r"(?<!cleared )(?<!full )stop"
-     r"(?! (?:on|at|squawk|over|and|turn|climb|descent|your|heading|bar|bars|lights|line)(?!\S))"
+     r"(?! (?:on|at|squawk|over|and|turn(?! left| right)|climb|descent|your|heading|bar|bars|lights"
+     r"|line)(?!\S))"
      r"(?: immediately)?",
      alone),
     ("stopping", "stop", r"stopping(?= \||$| immediately| on)", alone),

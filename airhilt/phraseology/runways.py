@@ -92,6 +92,9 @@ def go_around(segment: Segment, action: Action) -> Read | None:
 
 def continue_approach(segment: Segment, action: Action) -> Read | None:
     """Read "continue approach", whose runway is named before or after it, if at all."""
+    is_only = len(NAMED_RUNWAY.findall(segment.after)) == 1
+    if is_only and is_next_runway(segment) and segment.text.startswith("clear", segment.limit):
+        return alone(segment, action)  # The runway is that of the clearance.
     read = on_runway(segment, action)
     if read is None:
         return None

@@ -51,7 +51,7 @@ def squawk(segment: Segment, action: Action) -> Read | None:
 
 def contact(segment: Segment, action: Action) -> Read | None:
     """Read a change of frequency: its station, its frequency, or both."""
-    station = segment.found["station"]
+    station = segment.found["station"] or segment.found.groupdict().get("unit")
     station = station.strip() if station else None
     after = segment.after
     full, joined = FREQUENCY.search(after), _ON_JOINED.match(after)
@@ -240,7 +240,8 @@ FORMS: Listed = (
      r"|(?<=ground )decimal (?P<fraction>[0-9]{1,3})"
      rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),
-    ("stand standby", "monitor", rf"stand ?by(?: for| on)?(?P<station>{_STATION})", contact),
+    ("stand standby", "monitor",
+     rf"stand ?by(?: (?:for|on)(?P<station>{_STATION})|(?P<unit> (?:{UNIT})(?!\S)))", contact),
     ("hold", "stand_by", rf"hold on(?! (?:the|to|taxiway|stand|gate|{LETTER})(?!\S))", hold_on),
     ("stand standby", "stand_by",
      r"stand ?by(?! (?:this|on)(?!\S)| for (?!(?:your |a )?(?:clearance|push|start)))",

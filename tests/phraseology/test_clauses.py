@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from itertools import permutations
+
 import pytest
 
-from airhilt.phraseology import Instruction, parse_call
+from airhilt.phraseology import Instruction, Style, parse_call
+from airhilt.phraseology.say import speak_instruction, speak_readback
 
 I = Instruction  # noqa: E741
+Speak = Callable[[str, Sequence[Instruction], Style], str]
 KNOWN = ("AAL123", "AFR100", "N172SP", "OPS2", "TRUCK1")
 
 
@@ -146,3 +151,49 @@ def test_a_callsign_that_is_asked_for_is_asked_again(subtests: pytest.Subtests) 
     for text in ("American 123, say again your callsign", "American 123, say callsign"):
         with subtests.test(text):
             assert parse_call(text, KNOWN).asks_again
+
+
+BESIDE = (
+    I("cleared_to_land", "19"),
+    I("line_up", "19"),
+    I("hold_short", "15"),
+    I("hold_position"),
+    I("cross", "15", "M"),
+    I("proceed", "15"),
+    I("go_around"),
+    I("cleared_approach", "19", approach="ils"),
+    I("continue_approach"),
+    I("vacate", position="E", turn="left"),
+    I("taxi", position="stand 12", via=("A",)),
+    I("push_back"),
+    I("follow", position="cessna"),
+    I("altitude", sense="climb", altitude_ft=3000.0),
+    I("heading", turn="left", heading_deg=270.0),
+    I("direct", position="dixie"),
+    I("squawk", squawk="4213"),
+    I("contact", position="ground", frequency_khz=121_700),
+    I("stand_by"),
+    I("report", position="on downwind"),
+    I("circle", "33"),
+    I("orbit", turn="left"),
+    I("extend", position="downwind"),
+    I("short_approach"),
+    I("join", "19", "downwind", turn="left"),
+    I("return_to_field"),
+    I("say", position="altitude"),
+)
+
+
+@pytest.mark.parametrize("speak", [speak_instruction, speak_readback])
+def test_a_clause_means_the_same_beside_any_other(speak: Speak) -> None:
+    misread = {}
+    for pair in permutations(BESIDE, 2):
+        if (pair[0].action, pair[1].action) == ("continue_approach", "line_up"):
+            continue  # Nobody is told both.
+        if pair[0].action == "return_to_field" and pair[1].runway:
+            continue  # The runway behind it is that of the return.
+        text = speak("AAL123", pair, "faa")
+        read = parse_call(text, KNOWN).instructions
+        if sorted(read, key=str) != sorted(pair, key=str):
+            misread[text] = read
+    assert misread == {}
