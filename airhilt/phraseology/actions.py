@@ -6,6 +6,7 @@ import re
 
 from airhilt.phraseology import (
     approaches,
+    circuit,
     expectations,
     ground,
     lateral,
@@ -17,8 +18,8 @@ from airhilt.phraseology import (
 from airhilt.phraseology.forms import Form
 
 _SUBJECTS = (
-    expectations.FORMS, vertical.CROSSINGS, runways.FORMS, approaches.FORMS, ground.FORMS,
-    surveillance.FORMS, speeds.FORMS, lateral.FORMS, vertical.FORMS,
+    expectations.FORMS, circuit.FORMS, vertical.CROSSINGS, runways.FORMS, approaches.FORMS,
+    ground.FORMS, surveillance.FORMS, speeds.FORMS, lateral.FORMS, vertical.FORMS,
 )  # fmt: skip
 """Forms in their order: the first that fits is taken."""
 

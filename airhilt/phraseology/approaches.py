@@ -6,7 +6,15 @@ import re
 
 from airhilt.phraseology.alphabet import LETTER_OF, LETTERS
 from airhilt.phraseology.call import Action, Instruction
-from airhilt.phraseology.forms import BARE_VALUE, Listed, Read, Segment, alone, on_runway
+from airhilt.phraseology.forms import (
+    BARE_VALUE,
+    Listed,
+    Read,
+    Segment,
+    alone,
+    on_runway,
+    runway_before,
+)
 from airhilt.phraseology.slots import NAMED_RUNWAY, RUNWAY, SHORTENED, designator, runway_confidence
 
 KINDS: dict[str, str] = {
@@ -36,12 +44,13 @@ def circle(segment: Segment, action: Action) -> Read | None:
         rf" (?:(?:to|for) )?(?:land )?(?:runway )?{RUNWAY}",
         segment.after,
     )
-    if runway is None:
+    named = runway or runway_before(segment)
+    if named is None:
         return None
-    read = Instruction(
-        action, designator(*runway.groups()), confidence=runway_confidence(runway[1])
-    )
-    return Read(read, segment.start, segment.found.end() + runway.end())
+    number, side = named.group(1, 2)
+    read = Instruction(action, designator(number, side), confidence=runway_confidence(number))
+    start = segment.start if runway else segment.begin + named.start()
+    return Read(read, start, segment.found.end() + (runway.end() if runway else 0))
 
 
 def named_approach(text: str) -> Instruction | None:
@@ -80,7 +89,7 @@ FORMS: Listed = (
      rf"{_APPROACH}(?: approach)?", approach),
     ("clear cleared", "cleared_approach",
      r"clear(?:ed)? (?:for )?(?:the |an )?(?:straight in )?approach", approach),
-    ("circle", "circle", r"circle", circle),
+    ("circle", "circle", r"circle(?: to land(?! (?:runway )?[0-9]))?", circle),
     ("cancel cancelling", "cancel_approach",
      r"cancel(?:ling)? (?:your |the )?approach(?: clearance)?",
      alone),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from airhilt.phraseology.call import Action, Instruction, Turn
 from airhilt.phraseology.hits import NAME
@@ -15,7 +17,6 @@ from airhilt.phraseology.slots import (
     hpa_of,
     level_confidence,
     level_ft,
-    speed_confidence,
 )
 from airhilt.phraseology.slots import LEVEL as _LEVEL
 from airhilt.phraseology.vocabulary import COURTESIES, is_unknown
@@ -28,21 +29,8 @@ _IDLE = COURTESIES | {
 """Words that may stand beside the values."""
 _FAREWELL = re.compile(r"(?<!\S)(?:have a )?(?:good|great|nice) 1$")
 """The end of "have a good one"."""
-_LEAST_SPEED_KT, _GREATEST_SPEED_KT = 120, 350
-_FRACTION = r"[0-9][0257]"
-_VALUE = re.compile(
-    r"(?:(?P<fix>[a-z]+) at (?:(?P<over>[4-9]|[12][0-9]) (?:and )?(?P<at_kt>[12][0-9]0)"
-    rf"|(?P<over_level>{_LEVEL.pattern})(?: and (?P<at_speed>[12][0-9]0))?)"
-    rf"|(?P<level>{_LEVEL.pattern})|(?P<speed>[1-3][0-9]{{2}}) knots"
-    r"|(?P<turn>left|right) (?P<turned>[0-9]{3})|(?P<heading>[0-9]{3}) on the heading"
-    r"|(?P<degrees>10|15|20|25|30|40|45) (?P<side>left|right)"
-    r"|(?P<setting>2[89][0-9]{2}|3[01][0-9]{2}|9[5-9][0-9]|10[0-4][0-9])(?= |$)"
-    r"|(?P<cut>1[89]|2[0-7]|3[2-6]) decimal (?P<part>[0-9]{1,3})"
-    r"|(?P<mhz>1[1-3][0-9])(?P<fraction>[0-9]{1,3})(?: for [a-z]+)?"
-    r"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[1-46-9])"
-    rf"|(?P<group>(?:1[89]|2[0-9]|3[0-6]){_FRACTION})(?= |$)"
-    r"|decimal (?P<ground>[0-9]{1,2})|(?P<code>[0-7]{4})|(?P<number>[0-9]{3}))(?: |$)"
-)
+_SPEEDS_KT = range(120, 351, 10)
+"""Speeds that are read back without a unit."""
 _FURTHER = re.compile(r"expect further(?: clearance)?(?: at| time)*(?: [0-9]{2,4})?$")
 """The time to which an aircraft holds."""
 _JOINT = re.compile(r"(?:and|then)(?: and| then)* ")
@@ -81,68 +69,47 @@ def bare_values(words: list[str], beside: set[Action], last: Action | None = Non
         Action right before the words.
     """
     text, at = _FURTHER.sub("", " ".join(words)).strip(), 0
-    bare, is_then = Bare(), False
-    found_values: list[tuple[re.Match[str], bool]] = []
+    has_level = "altitude" in beside or _LEVEL.search(text) is not None
+    bare, is_later = Bare(), False
     while at < len(text):
+        is_set = (at > 0 and has_level) or last == "cross_fix"
+        for pattern, read in _VALUES:
+            found = pattern.match(text, at)
+            around = _Around(found is not None and _is_then(text, found.end()), has_level, is_set,
+                             "heading" in beside)  # fmt: skip
+            value = read(found, around) if found else None
+            if found and value is not None:
+                break
+        else:
+            return Bare()
+        if isinstance(value, float):
+            bare.pressure_hpa = value
+        else:
+            bare.instructions.append(replace(value, condition="then") if is_later else value)
+        at, is_later = found.end(), _is_then(text, found.end())
         joint = _JOINT.match(text, at)
-        if joint and found_values:
-            is_then, at = "then" in joint[0], joint.end()
-        found = _VALUE.match(text, at)
-        if found is None:
-            return Bare()
-        found_values.append((found, is_then))
-        at, is_then = found.end(), False
-    has_level = "altitude" in beside or any(found["level"] for found, _ in found_values)
-    for index, (found, is_later) in enumerate(found_values):
-        setting = _setting_of(
-            found, is_behind_level=(index > 0 and has_level) or last == "cross_fix"
-        )
-        if setting is not None:
-            bare.pressure_hpa = setting
-            continue
-        is_first = any(later for _, later in found_values[index + 1 : index + 2])
-        value = _instruction(found, beside, has_level=has_level, is_first=is_first)
-        if value is None:
-            return Bare()
-        bare.instructions.append(replace(value, condition="then") if is_later else value)
+        at = joint.end() if joint else at
     return bare
 
 
-def _setting_of(found: re.Match[str], *, is_behind_level: bool) -> float | None:
-    """Return an altimeter setting, which only a level or its digits show to be one."""
-    number = found["setting"]
-    if number is None or not (is_behind_level or (len(number) == 4 and set(number) & {"8", "9"})):
-        return None
-    return hpa_of(number)
+def _is_then(text: str, end: int) -> bool:
+    """Return whether "then" leads to the next value."""
+    joint = _JOINT.match(text, end)
+    return joint is not None and "then" in joint[0]
 
 
-def _instruction(
-    found: re.Match[str], beside: set[Action], *, has_level: bool, is_first: bool
-) -> Instruction | None:
-    """Return the instruction that a value reads back; it may be a report or another's value."""
-    if found["fix"]:
-        return _crossing(found)
-    if found["level"]:
-        return _level(found["level"], "altitude")
-    if found["speed"]:
-        return _speed(found["speed"], SHORTENED)
-    if found["degrees"]:
-        side: Turn = "left" if found["side"] == "left" else "right"
-        return Instruction(
-            "turn_by", turn=side, turn_deg=float(found["degrees"]), confidence=NO_SENSE
-        )
-    if number := found["turned"] or found["heading"]:
-        turn: Turn | None = (
-            "left" if found["turn"] == "left" else "right" if found["turn"] else None
-        )
-        return _heading(number, turn, SHORTENED)
-    text = found[0].strip()
-    if found["number"] or (found["setting"] and len(text) == 3):
-        return _number(text, beside, has_level=has_level, is_first=is_first)
-    if frequency := _frequency(found, text):
-        return frequency
-    is_code = len(text) == 4 and set(text) <= set("01234567")
-    return Instruction("squawk", squawk=text, confidence=SHORTENED) if is_code else None
+class _Around(NamedTuple):
+    """What the words around a number show it to be."""
+
+    is_first: bool
+    """True if "then" stands behind it."""
+    has_level: bool
+    is_set: bool
+    """True if an altimeter setting may stand here."""
+    has_heading: bool
+
+
+_Reader = Callable[[re.Match[str], _Around], Instruction | float | None]
 
 
 def _level(text: str, action: Action) -> Instruction | None:
@@ -153,66 +120,89 @@ def _level(text: str, action: Action) -> Instruction | None:
     return Instruction(action, altitude_ft=feet, confidence=min(SHORTENED, level_confidence(level)))
 
 
-def _crossing(found: re.Match[str]) -> Instruction | None:
+def _crossing(found: re.Match[str], _: _Around) -> Instruction | None:
     """Return a restriction at a fix, whose name is no word of the grammar."""
     if not is_unknown(found["fix"]):
         return None
-    speed = found["at_kt"] or found["at_speed"]
-    level = _level(found["over_level"], "cross_fix") if found["over_level"] else None
-    feet = float(found["over"]) * 1000.0 if found["over"] else None
-    feet = level.altitude_ft if level else feet
+    level = _level(found["level"], "cross_fix") if found["level"] else None
+    feet = level.altitude_ft if level else float(found["over"] or 0) * 1000.0
+    speed = found["at"] or found["speed"]
     return Instruction(
         "cross_fix", position=found["fix"], altitude_ft=feet,
         speed_kt=float(speed) if speed else None, confidence=SHORTENED,
     )  # fmt: skip
 
 
-def _speed(number: str, sure: float) -> Instruction:
-    speed_kt = float(number)
-    return Instruction("speed", speed_kt=speed_kt, confidence=min(sure, speed_confidence(speed_kt)))
+def _turn_by(found: re.Match[str], _: _Around) -> Instruction:
+    turn: Turn = "left" if found[2] == "left" else "right"
+    return Instruction("turn_by", turn=turn, turn_deg=float(found[1]), confidence=NO_SENSE)
 
 
-def _heading(number: str, turn: Turn | None, sure: float) -> Instruction | None:
-    if not 0 < int(number) <= 360:
+def _turn_to(found: re.Match[str], _: _Around) -> Instruction | None:
+    turn: Turn = "left" if found[1] == "left" else "right"
+    heading_deg = float(found[2])
+    has_sense = 0.0 < heading_deg <= 360.0
+    told = Instruction("heading", turn=turn, heading_deg=heading_deg, confidence=SHORTENED)
+    return told if has_sense else None
+
+
+def _setting(found: re.Match[str], around: _Around) -> float | None:
+    """Return an altimeter setting, which only a level or its digits show to be one."""
+    digits = found[1]
+    is_one = around.is_set or (len(digits) == 4 and set(digits) & {"8", "9"})
+    return hpa_of(digits) if is_one else None
+
+
+def _frequency(found: re.Match[str], _: _Around) -> Instruction | None:
+    """Return a frequency; four digits of which none is above 7 may also be a code."""
+    mhz, point, fraction = found.groups()
+    is_cut = len(mhz) == 2
+    if is_cut and not point and not re.fullmatch(r"[0-9][0257]|[1-46-9]", fraction):
         return None
-    return Instruction("heading", turn=turn, heading_deg=float(number), confidence=sure)
+    khz = frequency_khz(f"1{mhz}" if is_cut else mhz, fraction)
+    digits = mhz + fraction
+    is_code = not point and len(digits) == 4 and set(digits) <= set("01234567")
+    sure = NO_SENSE if is_code else SHORTENED
+    return Instruction("contact", frequency_khz=khz, confidence=sure) if khz else None
 
 
-def _number(
-    number: str, beside: set[Action], *, has_level: bool, is_first: bool
-) -> Instruction | None:
+def _ground(found: re.Match[str], _: _Around) -> Instruction | None:
+    khz = frequency_khz(GROUND_MHZ, found[1])
+    return Instruction("contact", frequency_khz=khz, confidence=SHORTENED) if khz else None
+
+
+def _number(found: re.Match[str], around: _Around) -> Instruction | None:
     """Return what three digits say, as far as the rest of the call tells.
 
     Before "then" and a level they are the speed that comes first (FAA Order JO 7110.65, 5-7-2),
     beside a heading a speed, and beside a level a heading. More than 360 is a flight level.
     """
-    value = int(number)
+    value = int(found[1])
     if value % 5 or not value:
         return None
     if value > 360:
         return Instruction("altitude", altitude_ft=value * 100.0, confidence=NO_SENSE)
-    is_speed = _LEAST_SPEED_KT <= value <= _GREATEST_SPEED_KT and value % 10 == 0
-    if is_speed and ((is_first and has_level) or "heading" in beside):
-        return _speed(number, NO_SENSE)
-    return _heading(number, None, NO_SENSE) if has_level else None
+    is_first = around.is_first and around.has_level
+    if value in _SPEEDS_KT and (is_first or around.has_heading):
+        return Instruction("speed", speed_kt=float(value), confidence=NO_SENSE)
+    told = Instruction("heading", heading_deg=float(value), confidence=NO_SENSE)
+    return told if around.has_level else None
 
 
-def _frequency(found: re.Match[str], text: str) -> Instruction | None:
-    """Return a frequency; four digits of which none is above 7 may also be a code."""
-    if found["ground"]:
-        mhz, fraction = GROUND_MHZ, found["ground"]
-    elif found["cut"]:
-        mhz, fraction = f"1{found['cut']}", found["part"]
-    elif found["mhz"]:
-        mhz, fraction = found["mhz"], found["fraction"]
-    else:
-        digits = found["short"] or found["group"] or (found["setting"] and text)
-        if not digits or not re.fullmatch(
-            rf"(?:1[89]|2[0-9]|3[0-6])(?:{_FRACTION}|[1-46-9])", digits
-        ):
-            return None
-        mhz, fraction = f"1{digits[:2]}", digits[2:]
-    khz = frequency_khz(mhz, fraction)
-    is_code = not found["ground"] and set(text) <= set("01234567") and len(text) == 4
-    sure = NO_SENSE if is_code else SHORTENED
-    return Instruction("contact", frequency_khz=khz, confidence=sure) if khz else None
+_VALUES: tuple[tuple[re.Pattern[str], _Reader], ...] = tuple(
+    (re.compile(rf"{pattern}(?: |$)"), read)
+    for pattern, read in (
+        (r"(?P<fix>[a-z]+) at (?:(?P<over>[4-9]|[12][0-9]) (?:and )?(?P<at>[12][0-9]0)"
+         rf"|(?P<level>{_LEVEL.pattern})(?: and (?P<speed>[12][0-9]0))?)", _crossing),
+        (_LEVEL.pattern, lambda found, _: _level(found[0], "altitude")),
+        (r"(left|right) ([0-9]{3})", _turn_to),
+        (r"(10|15|20|25|30|40|45) (left|right)", _turn_by),
+        (r"(2[89][0-9]{2}|3[01][0-9]{2}|9[5-9][0-9]|10[0-4][0-9])", _setting),
+        (r"(1?(?:1[89]|2[0-9]|3[0-6]))( decimal )?([0-9]{1,3})(?: for [a-z]+)?", _frequency),
+        (r"decimal ([0-9]{1,2})", _ground),
+        (r"([0-7]{4})",
+         lambda found, _: Instruction("squawk", squawk=found[1], confidence=SHORTENED)),
+        (r"([0-9]{3})", _number),
+    )
+)  # fmt: skip
+"""Values by their words: the first that can be read is taken."""

@@ -19,7 +19,21 @@ Action = Literal[
     "resume_speed", "no_speed_restrictions", "ident", "visual_separation", "orbit", "extend",
     "short_approach", "join", "side_step", "return_to_field", "expedite", "say",
 ]  # fmt: skip
-"""Action that a call orders, reads back, or reports."""
+"""Action that a call orders, reads back, or reports.
+
+The slots of those in the circuit and of questions:
+
+- orbit: one full turn, with ``turn`` if the side is said.
+- extend: fly a leg of the circuit longer; ``position`` is the leg ("downwind").
+- short_approach: turn in early; no slots.
+- join: fly a leg of the circuit; ``position`` is the leg ("downwind", "base", "final", "crosswind",
+  "upwind", "straight in"), with ``turn`` and ``runway`` if they are said.
+- side_step: land on the parallel ``runway`` instead.
+- return_to_field: come back to land; no slots.
+- expedite: do without delay what was told before; no slots.
+- say: tell by radio what ``position`` names ("altitude", "heading", "speed", "position",
+  "intentions").
+"""
 
 CLEARANCES: frozenset[Action] = frozenset(
     {"cleared_to_land", "cleared_for_takeoff", "line_up", "cross", "proceed", "touch_and_go",
@@ -29,6 +43,10 @@ CLEARANCES: frozenset[Action] = frozenset(
 """Actions that need a clearance, and are therefore never guessed."""
 REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
 """Actions that are reports."""
+STOPS: frozenset[Action] = frozenset(
+    {"stop", "hold_position", "hold_short", "go_around", "cancel_takeoff"}
+)
+"""Actions that end what was cleared, or keep off a runway, and so wait for no event."""
 BESIDES: frozenset[Action] = frozenset(
     {"ident", "visual_separation", "mach", "vertical_rate", "resume_speed",
      "no_speed_restrictions", "cross_fix"}
@@ -43,8 +61,9 @@ Turn = Literal["left", "right"]
 Bound = Literal["or_more", "or_less"]
 Kind = Literal[
     "instruction", "readback", "report", "request", "say_again", "correction", "disregard",
-    "unknown",
+    "hail", "unknown",
 ]  # fmt: skip
+"""Kind of a call; a hail has only the names of who is called and who calls."""
 
 
 @dataclass(frozen=True, slots=True)

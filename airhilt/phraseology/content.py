@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
 from dataclasses import dataclass, field, fields, replace
-from itertools import accumulate
 from typing import NamedTuple
 
 from airhilt.phraseology.bare_routes import bare_route
 from airhilt.phraseology.bare_values import bare_values, without_courtesies
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
+from airhilt.phraseology.clauses import Line, Span
 from airhilt.phraseology.conditions import (
     YIELDED,
-    Reads,
+    Clause,
     attach,
     merge_levels,
     put_in_order,
     withdraw,
-    without_goals,
 )
-from airhilt.phraseology.denials import AFTERWARDS, BETWEEN, is_expected, is_meant
-from airhilt.phraseology.forms import Read, Segment
+from airhilt.phraseology.denials import ASKS, end_of_denial, is_expected, is_meant
+from airhilt.phraseology.forms import Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
-from airhilt.phraseology.scan import Found, Scan, Span
 from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown, has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
@@ -40,20 +37,10 @@ _OF_PROCEDURE = re.compile(
     r" (?:arrival|departure|transition)(?!\S)"
 )
 """Words before and behind the name of a procedure, which has no word of a report or an order."""
-_DENIED = frozenset({*AFTERWARDS, "given", "issued", "yet"})
-"""Words behind a clearance that was denied."""
 _VALUED = frozenset({"altitude", "heading", "speed", *CLEARANCES} - {"taxi", "cleared_approach"})
 """Actions whose value stands near their words, without unknown words between."""
 _PASSING = re.compile(r" ?(?:climbing|descending)(?!\S)")
 """Words behind a level that is only passed."""
-_EVENT_WORDS = frozenset({"after", "once", "when", "behind", "as"})
-"""First words of an event that a clearance waits for."""
-LEAST_CONDITION = 2
-"""Least number of words of a whole condition."""
-IDLE = frozenset({"and", "the"})
-"""Words without which an action means the same, however surely they were heard."""
-CLEAR = (1.0, 1.0)
-"""Confidences of a recogniser that has no doubt about the action and its details."""
 
 
 @dataclass(slots=True)
@@ -71,61 +58,49 @@ class Content:
 
 def content_of(words: Words) -> Content:
     """Return the meaning of words without corrections."""
-    texts = words.texts
-    text = " ".join(texts)
-    starts = [0, *accumulate([len(word) + 1 for word in texts])]
-    scan = Scan(texts, text, starts)
+    line = Line(words)
+    text = line.text
     content = Content()
-    for span in scan.spans:
+    for span in line.spans:
         if span.is_traffic:
             content.traffic.append(text[span.start : span.end].strip())
             text = _blank(text, span)
-    conditions = [span for span in scan.spans if not span.is_traffic]
+    conditions = [span for span in line.spans if not span.is_traffic]
     plain = text
     for span in conditions:
         plain = _blank(plain, span)
-    reads = _reads(scan, texts, plain, starts)
-    if conditions:
-        attach(conditions, reads, text)
-    without_goals(reads)
-    if len(reads) > 1:
-        merge_levels(reads, plain)
-        withdraw(reads)
-    put_in_order(reads, texts, text)
-    gaps = _gaps(reads, scan, plain, starts, words)
+    clauses = _clauses(line, plain)
+    attach(conditions, clauses, text)
+    merge_levels(clauses, plain)
+    withdraw(clauses)
+    put_in_order(clauses, line.texts, text)
+    gaps = _gaps(clauses, line, plain)
     if gaps:
-        _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
-    is_sure = words.confidences.count(1.0) == len(texts)
-    for read, each in reads:
-        is_beside = bool(gaps) and _is_beside_unexplained(read, plain, reads)
-        heard = CLEAR if is_sure else _confidences(read, each, words, starts)
-        for told in (read.instruction, *read.more):
-            sure = told.confidence
-            if is_beside or _is_doubtful(told, plain, read, each):
-                sure = min(sure, SHORTENED)
-            if sure != told.confidence or heard != CLEAR:
-                told = _heard(told, sure, *heard)
-            if read.is_expected:
+        _take_bare(content, gaps, clauses, line, text)
+    for clause in clauses:
+        is_beside = bool(gaps) and _is_beside_unexplained(clause, plain, clauses)
+        heard = _confidences(clause, line)
+        for told in (clause.told, *clause.more):
+            is_doubtful = is_beside or _is_doubtful(told, plain, clause)
+            sure = min(told.confidence, SHORTENED) if is_doubtful else told.confidence
+            told = _heard(told, sure, *heard)
+            if clause.is_expected:
                 content.expected.append(told)
             else:
-                _add(content, told, is_doing=texts[each.first].endswith("ing"))
+                _add(content, told, is_doing=line.texts[clause.found.first].endswith("ing"))
     return content
 
 
-def _confidences(read: Read, each: Found, words: Words, starts: list[int]) -> tuple[float, float]:
+def _confidences(clause: Clause, line: Line) -> tuple[float, float]:
     """Return the least confidences of the recogniser in an action and in its details."""
-    begin, end = bisect_right(starts, read.start) - 1, bisect_right(starts, read.end - 1)
-    after_action = bisect_right(starts, each.match.end() - 1)
-    details = min(_least(words, begin, each.first), _least(words, after_action, end))
-    return _least(words, each.first, after_action), details
+    found = clause.found
+    begin, end = line.index(clause.start), line.index(clause.end - 1) + 1
+    after_action = line.index(found.match.end() - 1) + 1
+    details = min(line.heard(begin, found.first), line.heard(after_action, end))
+    return line.heard(found.first, after_action), details
 
 
-def _least(words: Words, start: int, end: int) -> float:
-    said = zip(words.texts[start:end], words.confidences[start:end], strict=True)
-    return min([1.0 if word in IDLE else confidence for word, confidence in said], default=1.0)
-
-
-def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
+def _is_doubtful(told: Instruction, text: str, clause: Clause) -> bool:
     """Return whether words may be missing that change what an instruction means.
 
     They are the side of a runway, the "are" of a question, and a condition of which one unknown
@@ -133,20 +108,20 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     be of the name of one: "deer park".
     """
     if told.action == "wildlife" and told.runway is None and told.position is None:
-        behind = text[read.end :].split(maxsplit=1)
+        behind = text[clause.end :].split(maxsplit=1)
         if behind and is_unknown(behind[0]):
             return True
-        if _VIA.search(text, 0, read.start) and _OF_PROCEDURE.match(text, read.end):
+        if _VIA.search(text, 0, clause.start) and _OF_PROCEDURE.match(text, clause.end):
             return True
-    if told.runway is not None and has_unknown_side(text, read.start, read.end):
+    if told.runway is not None and has_unknown_side(text, clause.start, clause.end):
         return True
     if " or " in text and (
-        _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end)
+        _OR.match(text, clause.end) or _OR_INSIDE.search(text, clause.found.match.end(), clause.end)
     ):
         return True
-    if told.action in _VALUED and has_unknown(text[each.match.end() : read.end].split()):
+    if told.action in _VALUED and has_unknown(text[clause.found.match.end() : clause.end].split()):
         return True
-    before = text[: min(read.start, each.match.start())].rsplit(maxsplit=2)[-2:]
+    before = text[: min(clause.start, clause.found.match.start())].rsplit(maxsplit=2)[-2:]
     if not before or told.action in REPORTS:
         return False
     if told.action in CLEARANCES and before[-1] in ("we", "i"):
@@ -158,15 +133,15 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     )
 
 
-def _is_beside_unexplained(read: Read, text: str, reads: Reads) -> bool:
+def _is_beside_unexplained(clause: Clause, text: str, clauses: list[Clause]) -> bool:
     """Return whether words right beside an instruction belong to no other and are unexplained."""
-    action = read.instruction.action
-    limit = min((other.start for other, _ in reads if other.start >= read.end), default=len(text))
-    if limit > read.end + 1 and is_unexplained_behind(text[read.end : limit].split(), action):
+    action = clause.told.action
+    limit = min((other.start for other in clauses if other.start >= clause.end), default=len(text))
+    if limit > clause.end + 1 and is_unexplained_behind(text[clause.end : limit].split(), action):
         return True
-    begin = max((other.end for other, _ in reads if other.end <= read.start), default=0)
-    return begin + 1 < read.start and is_unexplained_before(
-        text[begin : read.start].split(), action
+    begin = max((other.end for other in clauses if other.end <= clause.start), default=0)
+    return begin + 1 < clause.start and is_unexplained_before(
+        text[begin : clause.start].split(), action
     )
 
 
@@ -193,19 +168,16 @@ class _Gap(NamedTuple):
     """Least confidence of the recogniser in them."""
 
 
-def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) -> list[_Gap]:
+def _gaps(clauses: list[Clause], line: Line, text: str) -> list[_Gap]:
     """Return the words between the actions, without courtesies."""
-    taken = [(read.start, read.end) for read, _ in reads]
-    taken += [(span.start, span.end) for span in scan.spans]
-    taken.append((len(text), len(text)))
+    taken = [(each.start, each.end) for each in clauses]
+    taken += [(span.start, span.end) for span in line.spans]
     gaps: list[_Gap] = []
     at = 0
-    taken.sort()
-    for start, end in taken:
+    for start, end in (*sorted(taken), (len(text), len(text))):
         gap = text[at:start].strip(" |")
         if gap:
-            first, last = bisect_right(starts, at - 1), bisect_right(starts, start - 1)
-            heard = min(words.confidences[first:last], default=1.0)
+            heard = line.heard(line.index(at - 1) + 1, line.index(start - 1) + 1)
             said = without_courtesies(PRESSURE.sub("", gap).split())
             gaps.append(_Gap(at, start, gap.split()[0], said, heard))
         at = max(at, end)
@@ -213,46 +185,46 @@ def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) 
 
 
 def _take_bare(
-    content: Content, gaps: list[_Gap], reads: Reads, scan: Scan, text: str, *, is_called: bool
+    content: Content, gaps: list[_Gap], clauses: list[Clause], line: Line, text: str
 ) -> None:
     """Add the routes and values that stand alone.
 
     Values alone are read back: a call that begins with its callsign has none.
     """
-    beside = {read.instruction.action for read, _ in reads if not read.is_expected}
-    has_route = any(read.instruction.via for read, _ in reads) or NAME not in text
-    if is_called and not reads and len(gaps) > 1:
+    is_called = line.texts[:1] == [NAME]
+    beside = {each.told.action for each in clauses if not each.is_expected}
+    has_route = any(each.told.via for each in clauses) or NAME not in text
+    if is_called and not clauses and len(gaps) > 1:
         return
     for gap in gaps:
         if not gap.words:
             continue
-        before = max((read for read, _ in reads if read.end <= gap.start + 1),
-                     key=lambda read: read.end, default=None)  # fmt: skip
+        before = max((each for each in clauses if each.end <= gap.start + 1),
+                     key=lambda each: each.end, default=None)  # fmt: skip
         is_behind = before is not None and not text[before.end : gap.start].strip()
-        last = before.instruction.action if before is not None and is_behind else None
+        last = before.told.action if before is not None and is_behind else None
         route = (
             None
             if has_route or (is_called and not beside)
             else bare_route(gap.words, beside, last, is_joined=gap.first in ("and", "then"))
         )
+        values: list[Instruction] = []
         if route is not None:
-            condition = _condition_before(gap.start, scan.spans, text)
+            condition = _condition_before(gap.start, line.spans, text)
             if condition is None and last in YIELDED:
                 condition = "then"
-            route = replace(route, condition=condition)
-            told = _heard(route, route.confidence, gap.heard, gap.heard)
-            _add(content, told, is_doing=False)
+            values = [replace(route, condition=condition)]
         elif not _PASSING.match(text, gap.end):
             is_level = last == "heading" and LEVEL.fullmatch(" ".join(gap.words)) is not None
             if is_called and not is_level:
                 continue
             bare = bare_values(gap.words, beside, last)
             content.pressure_hpa = content.pressure_hpa or bare.pressure_hpa
-            for each in bare.instructions:
-                if is_level and before is not None:  # It waits for what the heading waits for.
-                    each = replace(each, condition=before.instruction.condition)
-                told = _heard(each, each.confidence, gap.heard, gap.heard)
-                _add(content, told, is_doing=False)
+            values = bare.instructions
+            if is_level and before is not None:  # It waits for what the heading waits for.
+                values = [replace(each, condition=before.told.condition) for each in values]
+        for each in values:
+            _add(content, _heard(each, each.confidence, gap.heard, gap.heard), is_doing=False)
 
 
 def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
@@ -264,85 +236,40 @@ def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
     return None
 
 
-def _end_of_limit(spans: list[Span], begin: int, each: Found, starts: list[int]) -> int:
-    """Return the index after a limit between two actions: "maintain 3000 until LANDER cleared"."""
-    for span in spans:
-        if begin <= span.start < each.match.start() and not span.is_traffic:
-            return bisect_right(starts, span.end - 1)
-    return 0
+def _clauses(line: Line, plain: str) -> list[Clause]:
+    """Return the clauses whose action is meant.
 
-
-def _end_of_condition(spans: list[Span], each: Found, starts: list[int]) -> int:
-    """Return the index of an action right behind its condition, else 0: "once clear contact"."""
-    start = each.match.start()
-    is_behind = any(span.end == start and not span.is_traffic for span in spans)
-    begun = next((span.start for span in spans if span.end == start), start)
-    return each.first if is_behind and each.first - bisect_right(starts, begun) > 0 else 0
-
-
-def _is_waited_for(spans: list[Span], texts: list[str], each: Found, starts: list[int]) -> bool:
-    """Return whether a clearance stands right behind the whole event that it waits for.
-
-    The clearance of "once you are cleared to land" is a part of the event.
+    The words that lead to an action are those of its clause alone, without its condition.
     """
-    for span in spans:
-        words = texts[bisect_right(starts, span.start) - 1 : each.first]
-        if span.end == each.match.start() and not span.is_traffic and len(words) > LEAST_CONDITION:
-            return words[0] in _EVENT_WORDS and words[-1] not in BETWEEN - {"clear"}
-    return False
-
-
-def _end_before_runway(spans: list[Span], text: str, start: int, starts: list[int]) -> int:
-    """Return the index of the runway of a clearance right behind a condition, else 0.
-
-    "Before turning right, runway 23, cleared for takeoff": the runway ends the condition.
-    """
-    for span in spans:
-        is_whole = len(text[span.start : span.end].split()) > 0 and span.end == start
-        if is_whole and not span.is_traffic and text.startswith("runway ", start):
-            first = bisect_right(starts, span.start)
-            index = bisect_right(starts, start) - 1
-            return index if index - first >= LEAST_CONDITION else 0
-    return 0
-
-
-def _reads(scan: Scan, texts: list[str], plain: str, starts: list[int]) -> Reads:
-    """Return the instructions of the actions that are meant."""
-    reads: Reads = []
+    clauses: list[Clause] = []
+    texts, found = line.texts, line.found
     taken, floor, is_said = 0, 0, True
-    found = scan.found
+    aside = {
+        index
+        for span in line.spans
+        if not span.is_traffic
+        for index in range(line.index(span.start), line.index(span.end - 1) + 1)
+    }
+    is_question = not ASKS.isdisjoint(texts[1:2] if texts[:1] == [NAME] else texts[:1])
     for index, each in enumerate(found):
         limit = found[index + 1].match.start() if index + 1 < len(found) else len(plain)
-        read = each.form.build(Segment(each.match, plain, taken, limit), each.form.action)
+        action = each.form.action
+        read = each.form.build(Segment(each.match, plain, taken, limit), action)
         if read is None:
             continue
         taken = read.end
-        after = bisect_right(starts, max(each.match.end(), read.end) - 1)
-        if each.form.action == "cleared_approach":
-            begin = reads[-1][0].end if reads else 0
-            floor = max(floor, _end_of_limit(scan.spans, begin, each, starts))
-        if scan.spans and each.form.action not in CLEARANCES:
-            floor = max(floor, _end_of_condition(scan.spans, each, starts))
-        elif scan.spans:
-            floor = max(floor, _end_before_runway(scan.spans, plain, read.start, starts))
-            if _is_waited_for(scan.spans, texts, each, starts):
-                floor = each.first
-        is_said = is_meant(texts, each.first, after, each.form.action, floor, is_said)
-        if is_said:
-            reads.append((read, each))
-        elif each.form.action not in REPORTS and is_expected(texts, each.first, floor):
-            reads.append((read._replace(is_expected=True), each))
-        floor = after if is_said else _end_of_denial(texts, after)
-    return reads
-
-
-def _end_of_denial(texts: list[str], after: int) -> int:
-    """Return the index after the words that deny an action behind it: "clearance not given"."""
-    if _DENIED.isdisjoint(texts[after : after + 3]):
-        return after
-    while after < len(texts) and (texts[after] in _DENIED or texts[after] in ("clearance", "is")):
-        after += 1
-    return after
+        after = line.index(max(each.match.end(), read.end) - 1) + 1
+        lead = [texts[at] for at in range(floor, each.first) if at not in aside]
+        is_said = is_meant(
+            lead, texts[each.first : after], texts[after:], action,
+            before_is_meant=is_said, is_question=is_question,
+        )  # fmt: skip
+        is_later = read.is_expected or (not is_said and action not in REPORTS and is_expected(lead))
+        if is_said or is_later:
+            told, start, end, more, _ = read
+            clauses.append(Clause(told, more, each, start, end, is_later))
+        floor = after + (0 if is_said else end_of_denial(texts[after:]))
+    return clauses
 
 
 def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:

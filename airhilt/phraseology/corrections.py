@@ -7,22 +7,13 @@ from dataclasses import replace
 
 from airhilt.phraseology.call import CLEARANCES, Instruction
 from airhilt.phraseology.content import Content, content_of
-from airhilt.phraseology.ground import route_of
 from airhilt.phraseology.slots import (
-    FREQUENCY,
     LETTER,
-    LEVEL,
-    NAMED_RUNWAY,
     NO_SENSE,
     RUNWAY,
     SHORTENED,
     SIDED_RUNWAY,
     TAXIWAY,
-    designator,
-    frequency_khz,
-    level_confidence,
-    level_ft,
-    speed_confidence,
 )
 from airhilt.phraseology.words import MENDED, Words
 
@@ -44,11 +35,12 @@ _VERBS = (
 )  # fmt: skip
 """First words of instructions."""
 _RUNWAY_SLIP = re.compile(
-    rf"(?<!\S)(?:runway )?{SIDED_RUNWAY} correction (?=(?:runway )?{SIDED_RUNWAY})"
+    rf"(?<!\S)(?:(?:runway )?{SIDED_RUNWAY} correction (?=(?:runway )?{SIDED_RUNWAY})"
+    rf"|runway {RUNWAY}(?: at {TAXIWAY})? correction (?=runway {RUNWAY}(?: \||$)))"
 )
 _ROUTE_SLIP = re.compile(
     rf"(?<!\S)(?P<said>{LETTER}(?: [0-9]{{1,2}}(?!\S))?(?: {LETTER}(?: [0-9]{{1,2}}(?!\S))?)*)"
-    rf" correction (?:via )?(?P<meant>(?={LETTER}){TAXIWAY}(?: (?={LETTER}){TAXIWAY})*)"
+    rf" correction (?P<via>via )?(?P<meant>(?={LETTER}){TAXIWAY}(?: (?={LETTER}){TAXIWAY})*)"
 )
 """A route, and the one that corrects it."""
 _MEANT = re.compile(
@@ -85,7 +77,7 @@ def without_slips(words: Words) -> Words:
             words = _without(words, text, *runway.span())
             continue
         route = _ROUTE_SLIP.search(text)
-        if route and route["said"].split()[0] == route["meant"].split()[0]:
+        if route and (route["via"] or route["said"].split()[0] == route["meant"].split()[0]):
             size = len(route["meant"].split())
             words = _without(words, text, route.start(), route.start("meant"), size)
             continue
@@ -170,18 +162,11 @@ def _take(content: Content, part: Words, marker: str) -> None:
     content.traffic += new.traffic
     content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
     if marker == "correction" and content.instructions:
-        if _corrects_itself(content.instructions[-1], new):
+        if new.instructions:
             _replace(content, new)
             return
-        corrected = _corrected(content.instructions[-1], " ".join(part.texts))
-        if corrected is not None:
-            content.instructions[-1] = corrected
-        elif new.instructions:
-            _replace(content, new)
-            return
-        else:
-            content.instructions.pop()
-            content.doing.pop()
+        content.instructions.pop()
+        content.doing.pop()
     content.instructions += new.instructions
     content.doing += new.doing
 
@@ -192,13 +177,6 @@ def _given_anew(told: Instruction, withdrawn: list[Instruction]) -> Instruction:
         return told
     is_again = any(told.action == each.action for each in withdrawn)
     return replace(told, confidence=min(told.confidence, NO_SENSE if is_again else SHORTENED))
-
-
-def _corrects_itself(last: Instruction, new: Content) -> bool:
-    """Return whether "correction" is followed by an instruction, not by a value of the last one."""
-    return any(
-        each.action == last.action or (each.runway and last.runway) for each in new.instructions
-    )
 
 
 def _replace(content: Content, new: Content) -> None:
@@ -222,33 +200,3 @@ def _completed(new: Instruction, last: Instruction | None) -> Instruction:
     if new.action == "heading" and new.turn is None:
         return replace(new, turn=last.turn)
     return new
-
-
-def _corrected(last: Instruction, text: str) -> Instruction | None:
-    """Return an instruction with its corrected value; None if there is no such value."""
-    confidence = min(last.confidence, MENDED)
-    if last.runway:
-        found = NAMED_RUNWAY.match(text) or re.match(RUNWAY, text)
-        return found and replace(last, runway=designator(*found.groups()), confidence=confidence)
-    route = re.match(rf"via ((?:{TAXIWAY} ?)+)$", text) if last.action == "taxi" else None
-    if route:
-        return replace(last, via=route_of(route[1]), confidence=confidence)
-    number = re.match(r"([0-9]{3})(?!\S)", text)
-    if last.altitude_ft:
-        level = LEVEL.match(text)
-        if level:
-            confidence = min(confidence, level_confidence(level))
-            return replace(last, altitude_ft=level_ft(level), confidence=confidence)
-        if number and last.altitude_ft % 500 == 0 and 10 <= int(number[1]) <= 660:
-            return replace(last, altitude_ft=float(number[1]) * 100.0, confidence=confidence)
-        return None
-    if last.heading_deg and number and 0 < int(number[1]) <= 360:
-        return replace(last, heading_deg=float(number[1]), confidence=confidence)
-    if last.speed_kt and number:
-        confidence = min(confidence, speed_confidence(float(number[1])))
-        return replace(last, speed_kt=float(number[1]), confidence=confidence)
-    frequency = FREQUENCY.match(text)
-    if last.frequency_khz and frequency:
-        khz = frequency_khz(*frequency.groups())
-        return replace(last, frequency_khz=khz, confidence=confidence) if khz else None
-    return None

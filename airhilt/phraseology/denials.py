@@ -1,12 +1,15 @@
-"""Words by which an action is denied, asked for, or expected, instead of ordered."""
+"""Words by which an action is denied, asked for, or expected, instead of ordered.
+
+They stand in the clause of the action: in the words that lead to it, or right behind it.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
-from airhilt.phraseology.call import CLEARANCES, REPORTS, Action
+from airhilt.phraseology.call import CLEARANCES, REPORTS, STOPS, Action
 from airhilt.phraseology.hits import NAME
-from airhilt.phraseology.runways import ANIMALS
 
 DENIALS = frozenset(
     {"no", "not", "never", "without", "unable", "neither", "nor", "cancelled", "refuse", "do",
@@ -15,7 +18,7 @@ DENIALS = frozenset(
 """Words before an action that deny it."""
 OPEN = frozenset(
     {"if", "unless", "when", "until", "once", "before", "whether", "expect", "expecting",
-     "expected", "await", "awaiting", "waiting", "wait", "request", "requesting", "requested",
+     "expected", "await", "awaiting", "wait", "request", "requesting", "requested",
      "confirm", "confirming", "verify", "except", "like", "want", "possible", "possibly",
      "maybe", "about", "prepare", "prepared", "anticipate", "disregard", "prior",
      "need", "intend", "plan", "planning", "chance", "assigned", "expects", "supposed", "told",
@@ -27,14 +30,12 @@ EXPECTS = frozenset(
 )
 """Words before an action that is to be expected."""
 ASKED = frozenset(
-    {"did", "does", "why", "what", "who", "how", "could", "would", "should", "can", "may",
-     "might", "plan"}
+    {"did", "does", "why", "what", "who", "how", "could", "would", "should", "can", "may", "might",
+     "plan"}
 )  # fmt: skip
-"""Words anywhere before a clearance that make it a question, if no other action stands between."""
+"""Words that make a question of the clearance that they lead to."""
 ASKS = frozenset({"is", "are", "am", "was", "were"})
 """First words of a question."""
-_ASKS_YOU = frozenset({"can", "could", "do", "did", "will", "would", "are"})
-"""Words before "you" that ask for what the other can or wants to do."""
 OTHERS = frozenset({"is", "was", "were", "are", "be", "has", "have", "been"})
 """Words before the clearance of another: "traffic is cleared to land"."""
 SOMEBODY = frozenset(
@@ -55,144 +56,148 @@ BETWEEN = frozenset(
      "is", "it", "cleared", "clear", "longer", "currently", "actually", "really"}
 )  # fmt: skip
 """Words that may stand between a denial and its action."""
-STOPS = DENIALS | OPEN | {"delay"}
+NEVER_PASSED = DENIALS | OPEN | {"delay"}
 """Words that are never passed over."""
 AFTERWARDS = frozenset({"cancelled", "denied", "revoked", "withdrawn", "not", "negative", "was"})
 """Words after a clearance that deny it: "cleared to land, cancelled"."""
 CANCELLED = frozenset({"that", "it", "this", "the", "clearance", "last"})
 """Words after "cancel" that deny the clearance before it: "line up and wait, cancel that"."""
-_PHRASES = {
-    "are": ("you", "we", "they"), "am": ("i",), "is": ("he", "that"), "were": ("you", "we"),
-    "was": ("i", "that"), "have": ("we", "i"), "can": ("we", "i"), "may": ("we", "i"),
-    "ready": ("to", "for"), "able": ("to",), "standby": ("for",), "by": ("for",),
-}  # fmt: skip
-"""Words before an action that is not ordered, by the word before them: "are you"."""
-_QUESTIONS = frozenset(
-    {("was", "that"), ("is", "that"), ("did", "you"), ("do", "you"), ("you", "want"),
-     ("want", "us"), ("we", "may"), ("we", "might"), ("i", "may"), ("i", "might"),
-     ("should", "we"), ("shall", "we"), ("should", "i"), ("how", "about"),
-     ("what", "about")}
+_DENIED = frozenset({*AFTERWARDS, "given", "issued", "yet", "clearance", "is"})
+"""Words behind a clearance that was denied, which lead to nothing."""
+_ASKING = frozenset(
+    (first, second)
+    for first, seconds in {
+        "are": "you we they", "am": "i", "is": "he that", "were": "you we", "was": "i that",
+        "have": "we i", "can": "you we i", "could": "you", "may": "we i", "do": "you",
+        "did": "you", "will": "you", "would": "you", "ready": "to for", "able": "to",
+        "standby": "for", "by": "for", "you": "want", "want": "us", "we": "may might",
+        "i": "may might", "should": "we i", "shall": "we", "how": "about", "what": "about",
+    }.items()
+    for second in seconds.split()
 )  # fmt: skip
-"""Word pairs before an action that make it a question."""
-_CANCELLED_BEFORE = (
+"""Word pairs before an action that is asked about or asked for: "are you", "ready for"."""
+_WITHDRAWN = (
     "clearance", "takeoff", "landing", "crossing", "taxi", "up", "pushback", "push", "approach",
     "is", "been", "hold", "descent", "climb", "route", "it", "that",
 )  # fmt: skip
-"""Words before "cancelled" that are what is cancelled."""
 _BEFORE_IT = frozenset(
-    {*((word, "cancelled") for word in _CANCELLED_BEFORE),
+    {*((word, "cancelled") for word in _WITHDRAWN),
      *((word, "request") for word in ("that", "your", "the"))}
 )  # fmt: skip
 """Word pairs right before an action that deny what is before them: "crossing cancelled, hold
 short", "unable that request, maintain flight level 240"."""
 _WHO_WILL = frozenset({"we", "i", "you", "and", "then", "roger", "wilco", "okay", "affirm", NAME})
 """Words before "will" that make an action the speaker's own, or that of whom is called."""
-_CLEARED = ("cleared", "clear")
 _NOT_DENIED = frozenset({"above", "below", "before", "contact"})
 """Words behind "not" and "negative" that belong to them, so that what is before is not denied."""
 
 
 def is_meant(
-    words: list[str], first: int, after: int, action: Action, floor: int, before_is_meant: bool
+    lead: Sequence[str],
+    said: Sequence[str],
+    behind: Sequence[str],
+    action: Action,
+    *,
+    before_is_meant: bool,
+    is_question: bool,
 ) -> bool:
     """Return whether an action is ordered or read back, not denied, asked about or expected.
 
     Parameters
     ----------
-    first, after
-        Begin and end of the words of the action.
-    floor
-        End of the words of the action before it.
+    lead, said, behind
+        Words of its clause before the action, its own words, and those behind it.
     before_is_meant
         True if the action before it is meant: "do not cross or line up" denies both.
+    is_question
+        True if the call begins as a question does.
+    """
+    if action in CLEARANCES and (is_question or not _is_own(lead, said, behind)):
+        return False
+    if not lead or list(lead) == [NAME]:
+        return True
+    if not _ASKING.isdisjoint(pairwise((*lead, said[0]))):
+        return False
+    if said[0].endswith("ing") and _is_somebody_elses(lead):
+        return False
+    if lead[-1] == "will" and len(lead) > 1 and action != "report" and lead[-2] not in _WHO_WILL:
+        return False
+    at = _governing(lead, is_clearance=action in CLEARANCES)
+    if at is None:
+        return True
+    word = lead[at]
+    if word in ("and", "or") and at == 0 and not before_is_meant:
+        return False
+    if at == len(lead) - 1 > 0 and (lead[at - 1], word) in _BEFORE_IT:
+        return True
+    if at and tuple(lead[at : at + 2]) == ("no", NAME):
+        return True  # The speaker corrects the callsign: "Delta, no, United 914".
+    if word in DENIALS:
+        return lead[-1] == "unable" and action in STOPS
+    if action not in CLEARANCES and tuple(lead[at : at + 2]) == ("need", "you"):
+        return True  # "I need you to turn left".
+    return word not in OPEN or action in REPORTS
 
-    Notes
-    -----
+
+def _governing(lead: Sequence[str], *, is_clearance: bool) -> int | None:
+    """Return the index of the word that an action depends on, None if there is none.
+
     One unknown word before a clearance is passed over, because recognisers insert words.
     """
-    if action in CLEARANCES and not _is_own(words, first, after, floor):
-        return False
-    if words[floor:first] in ([], [NAME]):
-        return True
-    if "you" in words[floor:first] and words[max(words.index("you", floor) - 1, 0)] in _ASKS_YOU:
-        return False
-    if not _QUESTIONS.isdisjoint(pairwise(words[floor:first])):
-        return False
-    if words[first].endswith("ing") and _is_somebody_elses(words, first, floor):
-        return False
-    is_said_of = words[first - 1] == "will" and first - 2 >= floor and action != "report"
-    if is_said_of and words[first - 2] not in _WHO_WILL:
-        return False
-    at = first - 1
-    skips = action in CLEARANCES
-    while at >= floor:
-        if words[at + 1] in _PHRASES.get(words[at], ()):
-            return False
-        if words[at] not in BETWEEN and not words[at][0].isdigit():
-            is_on = words[at] == "on" and at > floor and words[at - 1] in EXPECTS
-            if not is_on and (not skips or words[at] in STOPS or at == floor):
-                break
-            skips = words[at] == "or"
-        at -= 1
-    if at < floor:
-        return True
-    if words[at] in ("and", "or") and at == floor and not before_is_meant:
-        return False
-    if at == first - 1 > floor and (words[at - 1], words[at]) in _BEFORE_IT:
-        return True
-    if words[at : at + 2] == ["no", NAME] and at > floor:
-        return True  # The speaker corrects the callsign: "Delta, no, United 914".
-    if words[at] in DENIALS or words[at + 1] in _PHRASES.get(words[at], ()):
-        return False
-    if action not in CLEARANCES and words[at] == "need" and words[at + 1 : at + 2] == ["you"]:
-        return True  # "I need you to turn left".
-    is_thanked = words[at] == "waiting" and words[at - 1] == "for"
-    return words[at] not in OPEN or is_thanked or action in REPORTS
+    skips = is_clearance
+    for at in reversed(range(len(lead))):
+        word = lead[at]
+        if word in BETWEEN or word[0].isdigit():
+            continue
+        if word == "on" and at and lead[at - 1] in EXPECTS:
+            continue
+        if not skips or word in NEVER_PASSED or at == 0:
+            return at
+        skips = word == "or"
+    return None
 
 
-def _is_somebody_elses(words: list[str], first: int, floor: int) -> bool:
+def _is_somebody_elses(lead: Sequence[str]) -> bool:
     """Return whether somebody else does what is said: "the American is holding short"."""
-    last, ahead = words[first - 1], words[max(first - 2, 0)]
-    if first - 1 < floor or first < 2:
-        return False
-    return (last in ("is", "are") and ahead not in ("you", "we", NAME, "i")) or (
-        last in SOMEBODY and SPOKEN_OF.isdisjoint(words[floor:first])
+    ahead = lead[-2] if len(lead) > 1 else ""
+    return (lead[-1] in ("is", "are") and ahead not in ("", "you", "we", NAME, "i")) or (
+        lead[-1] in SOMEBODY and SPOKEN_OF.isdisjoint(lead)
     )
 
 
-def is_expected(words: list[str], first: int, floor: int) -> bool:
+def is_expected(lead: Sequence[str]) -> bool:
     """Return whether the words before an action say that it is to be expected."""
-    at = first - 1
-    while at >= floor and (words[at] in BETWEEN or words[at] in ("on", "that")):
-        at -= 1
-    if at < floor or DENIALS.intersection(words[max(at - 1, floor) : at]):
+    words = list(lead)
+    while words and (words[-1] in BETWEEN or words[-1] in ("on", "that")):
+        words.pop()
+    if not words or (words[-2:-1] and words[-2] in DENIALS):
         return False
-    is_ready = words[at] == "ready" and words[at - 1] == "be" and at > floor
-    return words[at] in EXPECTS or is_ready
+    return words[-1] in EXPECTS or words[-2:] == ["be", "ready"]
 
 
-def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
+def _is_own(lead: Sequence[str], said: Sequence[str], behind: Sequence[str]) -> bool:
     """Return whether a clearance belongs to the one who is called or reads it back."""
-    after += words[after : after + 1] == ["clearance"]
-    ends = words[after : after + 2]
-    if first - 2 >= floor and words[first - 1] == "to" and words[first - 2] in _CLEARED:
-        first -= 2
-    before = tuple(words[max(first - 2, 0) : first])
-    last = before[-1] if before else ""
-    is_cleared = words[first] in _CLEARED
-    is_cancelled = ends[:1] == ["cancel"] and (ends[1:] == [] or ends[1] in CANCELLED)
-    opening = words[1:2] if words[0] == NAME else words[:1]
+    if behind[:1] == ["clearance"]:
+        behind = behind[1:]
+    first, second = (*behind[:2], "", "")[:2]
+    is_cleared = said[0] in ("cleared", "clear")
+    if tuple(lead[-2:]) in (("cleared", "to"), ("clear", "to")):
+        lead, is_cleared = lead[:-2], True
+    last = lead[-1] if lead else ""
     return not (
-        last == "negative"
-        or (words[first].endswith("ing") and last in ANIMALS)
-        or (last in SOMEBODY and first > floor and SPOKEN_OF.isdisjoint(words[floor:first]))
-        or last == "to"
-        or last == "ready"
-        or (before[:1] == ("ready",) and last.isdigit())
-        or (is_cleared and last in OTHERS and before not in OWN)
-        or is_cancelled
-        or (not AFTERWARDS.isdisjoint(ends[:1]) and _NOT_DENIED.isdisjoint(ends[1:]))
-        or (ends[:1] == ["is"] and not (AFTERWARDS | {"for"}).isdisjoint(ends[1:]))
-        or not ASKED.isdisjoint(words[floor:first])
-        or not ASKS.isdisjoint(opening)
+        last in ("negative", "to", "ready")
+        or (last in SOMEBODY and SPOKEN_OF.isdisjoint(lead))
+        or (tuple(lead[-2:-1]) == ("ready",) and last.isdigit())
+        or (is_cleared and last in OTHERS and tuple(lead[-2:]) not in OWN)
+        or (first == "cancel" and (not second or second in CANCELLED))
+        or (first in AFTERWARDS and second not in _NOT_DENIED)
+        or (first == "is" and second in AFTERWARDS | {"for"})
+        or not ASKED.isdisjoint(lead)
     )
+
+
+def end_of_denial(behind: Sequence[str]) -> int:
+    """Return the number of words that deny what is before them: "clearance not given"."""
+    if _DENIED.difference({"clearance", "is"}).isdisjoint(behind[:3]):
+        return 0
+    return next((at for at, word in enumerate(behind) if word not in _DENIED), len(behind))

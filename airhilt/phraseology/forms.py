@@ -139,12 +139,14 @@ _OTHER_RUNWAY = re.compile(
     r"^ runway(?!\S)|(?<!\S)(?:hold|short|of|final|base|downwind|clear|crossing)(?!\S)"
 )
 """Words before a runway that is not that of the action, or after one that cannot be read."""
+_TO_RUNWAY = frozenset({"", "on", "onto", "on to", "into", "across", "to", "for"})
+"""Words between an action and its runway."""
 POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
 IMMEDIATE = frozenset({"immediate", "immediately", "expedite", "expediting", "now"})
 _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
 _NO_NAME = re.compile(rf"(?!waypoint )(?:{FIX_ENDS}|left|right|to|[0-9]+)(?!\S)")
 """The first word of a fix that is a word of the phraseology: the name itself may be lost."""
-_NAME_ENDS_HERE = re.compile(rf" (?:\||{FIX_ENDS})(?!\S)|$")
+_NAME_ENDS_HERE = re.compile(rf" (?:\||#+|{FIX_ENDS})(?!\S)|$")
 
 
 def is_immediate(segment: Segment, end: int) -> bool:
@@ -270,8 +272,9 @@ def _runway_after(segment: Segment, *, is_named: bool) -> re.Match[str] | None:
     named = _named_runway(after)
     if named is None or _OTHER_RUNWAY.search(after[: named.start()]):
         return None
-    is_beside = after[: named.start()].strip() in ("", "on")
-    return None if is_named and (not is_beside or is_next_runway(segment)) else named
+    is_beside = after[: named.start()].strip() in _TO_RUNWAY
+    is_next = is_next_runway(segment) and not (is_beside and not is_named)
+    return None if is_next or (is_named and not is_beside) else named
 
 
 def alone(segment: Segment, action: Action) -> Read | None:

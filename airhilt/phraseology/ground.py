@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import cast
 
 from airhilt.phraseology.alphabet import LETTER_OF, LETTERS
@@ -22,6 +21,7 @@ from airhilt.phraseology.forms import (
     runway_before,
 )
 from airhilt.phraseology.slots import (
+    FIX,
     FIX_ENDS,
     LETTER,
     NAMED_RUNWAY,
@@ -49,7 +49,8 @@ _EACH_TAXIWAY = re.compile(rf"(?<!\S){_PIECE}")
 _NOT_PLACE = "runway|to|via|and|then|cleared|wind|line|hold|from|at|coming|off"
 _PLACE = re.compile(
     rf" (?:to )?(?:the )?((?!(?:{_NOT_PLACE})(?!\S))[a-z]+"
-    rf"(?: (?!(?:{_NOT_PLACE}|{LETTERS_OF})(?!\S))[a-z]+){{0,3}}(?: [0-9]+)?|[0-9]{{2,4}})(?!\S)"
+    rf"(?: (?!(?:{_NOT_PLACE}|{LETTERS_OF})(?!\S))[a-z]+){{0,3}}(?: [0-9]+(?! miles?))?"
+    r"|[0-9]{2,4})(?!\S)"
 )
 """Another aircraft; a letter behind its name belongs to a route."""
 _FOLLOWED_TO = re.compile(rf"(?: [a-z]+){{0,4}} to (?:runway )?{RUNWAY}")
@@ -79,6 +80,11 @@ _TAXI_TO = re.compile(
     r"(?!.* (?:runway|not)(?!\S)) to (?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
 )
 
+_TO_FIX = re.compile(rf" to ((?!(?:the|via)(?!\S)|{TAXIWAY}){FIX})")
+_PLACE_ON_GROUND = re.compile(
+    rf"(?<!\S)(?:{STAND}|holding|taxiway|station|fire|cargo|maintenance|area|line|fbo|fuel)(?!\S)"
+)
+
 
 def proceed(segment: Segment, action: Action) -> Read | None:
     """Read leave to go on to a runway, or a taxi route."""
@@ -87,15 +93,15 @@ def proceed(segment: Segment, action: Action) -> Read | None:
     runway = NAMED_RUNWAY.search(segment.after)
     if runway and "and" in segment.after[: runway.start()].split():
         return None  # Another action, whose word is lost.
-    if runway:
+    if runway and not segment.after.startswith(" to "):
         return on_runway(segment, action)
     if not re.match(r" (?:to|via)(?!\S)", segment.after):
         return None
-    read = taxi(segment, "taxi")
-    if read is None or read.instruction.via:
-        return read
-    told = read.instruction  # It may be the flight to a fix.
-    return read._replace(instruction=replace(told, confidence=min(told.confidence, SHORTENED)))
+    fix = _TO_FIX.match(segment.after)
+    if fix is None or _PLACE_ON_GROUND.search(fix[1]):
+        return taxi(segment, "taxi")
+    to = Instruction("direct", position=fix[1].strip())
+    return Read(to, segment.start, segment.found.end() + fix.end())
 
 
 def taxi(segment: Segment, action: Action) -> Read | None:
@@ -274,8 +280,8 @@ FORMS: Listed = (
     ("left right", "vacate", r"(?P<turn>left|right)(?= when able)", vacate),
     ("off", "vacate",
      rf"(?<!turn )(?<!turning )(?<!level )(?<!take )(?<!\S)off(?= (?:at|on) {LETTER})", vacate),
-    ("expedite", "vacate", r"expedite (?:vacating|exiting)(?: the runway)?", vacate),
-    ("expedite", "taxi", r"expedite taxi", nothing),
+    ("expedite", "vacate", r"expedite (?:vacat|exit)(?:e|ing)?(?: the runway)?", vacate),
+    ("expedite", "expedite", r"expedite (?:your |the )?(?:taxi|crossing|backtrack|turn)", alone),
     ("turn turning", "vacate", r"turn(?:ing)? off(?: the runway)?", vacate),
     ("leave", "vacate", r"leave the runway", vacate),
     ("taxi taxiing drive driving", "taxi",
@@ -291,7 +297,8 @@ FORMS: Listed = (
     ("hold", "hold_position", r"hold (?:your|the) taxi", alone),
     ("stop", "stop",
      r"(?<!cleared )(?<!full )stop"
-     r"(?! (?:on|at|squawk|over|and|turn|climb|descent|your|heading|bar|bars|lights|line)(?!\S))"
+     r"(?! (?:on|at|squawk|over|and|turn(?! left| right)|climb|descent|your|heading|bar|bars|lights"
+     r"|line)(?!\S))"
      r"(?: immediately)?",
      alone),
     ("stopping", "stop", r"stopping(?= \||$| immediately| on)", alone),

@@ -115,6 +115,8 @@ def is_spoken_of(words: list[str], start: int, end: int) -> bool:
         return False
     if end < len(words):
         return True
+    if words[start - 1] in MAKERS and words[start].isalpha() and words[start] not in LETTER_OF:
+        return False  # No maker's name stands before that of an airline.
     if at > 0 and words[at] in ("follow", "following") and words[at - 1] in ("will", "we"):
         return False
     is_again = words[at] in ("behind", "after") and words[at] in words[:at]

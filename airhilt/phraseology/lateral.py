@@ -39,7 +39,8 @@ def heading(segment: Segment, action: Action) -> Read | None:
     if turn is None and _TURN.search(segment.before):
         confidence = NO_VALUE  # The side of the turn was not understood.
     if "bare" in parts or (at and at["bare"] is not None):
-        confidence = min(confidence, BARE_VALUE)
+        is_north = turn is not None and number == "360"  # It may be a full turn.
+        confidence = min(confidence, SHORTENED if is_north else BARE_VALUE)
     read = Instruction(
         action,
         position=f"{kept} heading" if kept else taxiway(taxiway_at) if taxiway_at else None,
@@ -179,7 +180,7 @@ FORMS: Listed = (
     ("stop", "heading", rf"stop (?:the |your )?turn(?: at| on)?(?: heading)? {_HEADING}", heading),
     ("fly flying", "heading", rf"fly(?:ing)? heading {_HEADING}", heading),
     ("heading", "heading", rf"heading {_HEADING}", heading),
-    ("resume own", "own_navigation", r"(?:resume (?:your )?)?own nav(?:igation)?", alone),
+    ("resume own", "own_navigation", r"(?:resume (?:your )?)?own (?:navigation|nav)", alone),
     ("direct", "direct", rf"direct(?: to)?(?: the)?(?: (?P<fix>{FIX}))?", direct),
     ("intercept", "heading", r"intercept", nothing),
 )  # fmt: skip

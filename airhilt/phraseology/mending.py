@@ -12,7 +12,7 @@ import re
 from functools import lru_cache
 from typing import NamedTuple
 
-from airhilt.phraseology.sounds import PHONEMES, alike, likeness, sounds_of
+from airhilt.phraseology.sounds import PHONEMES, likeness
 from airhilt.phraseology.telephony import TELEPHONY
 
 FITTED = 0.75
@@ -58,7 +58,6 @@ FITS = (
     Fit("thousand", before="(?:climb|descend|maintain)(?: to)? [0-9]{1,2}"),
     Fit("knots", before="(?:speed|reduce|maintain|increase)(?: speed)?(?: to)? [1-3][0-9]{2}"),
     Fit("approach", before="cleared (?:for )?(?:the )?(?:ils|visual|rnav|localizer)"),
-    Fit("ils", before="cleared(?: for)?(?: the)?", after=rf"(?:approach|runway {_RUNWAY})"),
     Fit("tower", before=r"contact(?: \S+)?", after=r"(?:on )?1[1-3][0-9]"),
     Fit("ground", before=r"contact(?: \S+)?", after=r"(?:on )?1[1-3][0-9]"),
     Fit("land", before=rf"runway {_RUNWAY}(?: (?:left|right|centre))? cleared to"),
@@ -82,8 +81,6 @@ _FITS = {
 _INFLECTED = re.compile("(?:ed|d|s|ing)$")
 _BEFORE_FIX = frozenset({"cross", "crossing", "direct", "over", "by", "depart", "leave"})
 """Words before the name of a fix, which may sound like anything."""
-_ILS = "YElEs"
-"""Sounds of the letters I L S."""
 _NAMES = frozenset(word for name in TELEPHONY.values() for word in name.split())
 _OWN = frozenset({*_TARGETS, "correct"}) | (PHONEMES.keys() - _NAMES)
 """Words of the phraseology, which are never replaced."""
@@ -97,7 +94,7 @@ def candidates(word: str) -> tuple[str, ...]:
     """
     if not word.isalpha() or len(word) < 3 or _OWN.intersection((word, _INFLECTED.sub("", word))):
         return ()
-    scores = {target: likeness(word, target) for target in _TARGETS if target != "ils"}
+    scores = {target: likeness(word, target) for target in _TARGETS}
     return tuple(
         target
         for target in sorted(scores, key=lambda each: (-scores[each], each))
@@ -118,8 +115,6 @@ def mend_by_sound(texts: list[str], confidences: list[float]) -> None:
             if target is not None:
                 texts[at] = target
                 confidences[at] *= FITTED
-    if "cleared" in texts:
-        _mend_ils(texts, confidences)
 
 
 def _is_operators(word: str, following: list[str]) -> bool:
@@ -129,25 +124,3 @@ def _is_operators(word: str, following: list[str]) -> bool:
 
 def _fits(target: str, before: str, after: str) -> bool:
     return any(left.match(before) and right.match(after) for left, right in _FITS[target])
-
-
-@lru_cache(maxsize=1024)
-def _sounds_like_ils(first: str, second: str) -> bool:
-    return alike(sounds_of(first) + sounds_of(second), _ILS) >= LEAST_ALIKE
-
-
-def _mend_ils(texts: list[str], confidences: list[float]) -> None:
-    """Replace two words that sound like the letters I L S, as in "cleared a less approach"."""
-    for at in range(texts.index("cleared") + 1, len(texts) - 2):
-        if texts[at + 2] not in ("approach", "runway"):
-            continue
-        pair = texts[at : at + 2]
-        if not all(each.isalpha() for each in pair) or "ils" in pair or "".join(pair) == "ils":
-            continue
-        if not _sounds_like_ils(*pair):
-            continue
-        before, after = " ".join(texts[max(at - 3, 0) : at]), " ".join(texts[at + 2 : at + 5])
-        if _fits("ils", before, after):
-            confidences[at : at + 2] = [min(confidences[at : at + 2]) * FITTED]
-            texts[at : at + 2] = ["ils"]
-            return

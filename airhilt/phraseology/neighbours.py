@@ -23,7 +23,7 @@ _OPENERS = COURTESIES | {
     "copy", "delay", "disregard", "enter", "estimate", "except", "expect", "expecting",
     "expedite", "extend", "face", "facing", "frequency", "goodbye", "have", "identified",
     "immediately", "in", "information", "intercept", "it", "join", "keep", "later", "looking",
-    "make", "making", "negative", "no", "number", "once", "over", "passing", "pattern",
+    "make", "making", "negative", "no", "number", "once", "over", "passing", "pattern", "prepare",
     "proceed", "q", "qfe", "qnh", "radar", "radio", "readback", "remain", "report", "rest",
     "say", "see", "servus", "so", "surface", "tail", "temperature", "then", "there", "they",
     "this", "through", "time", "tower", "traffic", "tschuss", "vector", "vectors", "vehicle",

@@ -14,13 +14,14 @@ from airhilt.phraseology.aircraft_names import MAKERS
 from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.call import REPORTS, Call, Instruction, Kind
 from airhilt.phraseology.callsigns import Naming, roster_of
+from airhilt.phraseology.clauses import CONDITIONS
 from airhilt.phraseology.conditions import doubtful
 from airhilt.phraseology.content import Content
 from airhilt.phraseology.corrections import content_with_corrections, without_slips
+from airhilt.phraseology.forms import UNIT
 from airhilt.phraseology.hits import NAME, Hit
 from airhilt.phraseology.run_together import split_numbers
-from airhilt.phraseology.scan import CONDITIONS
-from airhilt.phraseology.slots import LEVEL, NO_SENSE, SHORTENED, pressure_of, wind_of
+from airhilt.phraseology.slots import FIX_ENDS, LEVEL, NO_SENSE, SHORTENED, pressure_of, wind_of
 from airhilt.phraseology.spoken_forms import is_registration
 from airhilt.phraseology.words import MENDED, Words, words_of
 
@@ -53,6 +54,9 @@ _CONFIRM = re.compile(
 )
 """Requests to say what was said: ICAO Annex 10 volume II, 5.2.1.5.8, and "verify" of the FAA's
 Pilot/Controller Glossary."""
+_STATION = rf"(?:(?!{FIX_ENDS}(?!\S)|the )[a-z]+ ){{0,2}}?(?:{UNIT})(?: good [a-z]+| hello| hi)?"
+_HAIL = re.compile(rf"{_STATION}(?: this is)? \||\|(?: this is)? {_STATION}")
+"""A call that has only the names of who is called and who calls (Annex 10, 5.2.1.7.3.2.1)."""
 _READY = re.compile(
     r"(?<!\S)(?:(?<!report )ready(?: (?:for|to)(?!\S)|$| (?=\|))|(?:fully ready|would like)(?!\S))"
 )
@@ -72,7 +76,7 @@ _PLACED = frozenset(
 NAMED_AFTER = CONDITIONS | {
     "traffic", "follow", "to", "for", "by", "with", "from", "of", "the", "is", "and", "company",
     "ahead", "via", "taxi", "exit", "vacate", "taxiway", "intersection", "at", "on", "number",
-    "than", "or", "departed", "landed",
+    "than", "or", "departed", "landed", "decimal",
 }  # fmt: skip
 """Words before a callsign that is not the one called."""
 AHEAD = frozenset({"follow", "following", "behind", "landing", "departing", "passing"})
@@ -225,7 +229,9 @@ def _kind(
         or ("wind" in present and wind_of(text))
         or pressure_of(text)
     )
-    return "report" if reports else "unknown"
+    if reports:
+        return "report"
+    return "hail" if _HAIL.fullmatch(text) else "unknown"
 
 
 def _confidence_of_name(words: Words, naming: Naming) -> float:

@@ -48,8 +48,10 @@ _POINT = re.compile(
     rf" (?:at |of )?(?:the )?(?:taxiway |intersection |(?:holding )?(?:point|decimal) )?({TAXIWAY})"
 )
 _LINK = re.compile(rf" (?:of |at )?({NUMBERED_LINK})")
-_DOUBLE_POINT = re.compile(rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER})(?= \||$)")
-"""Pattern of a taxiway of two letters, behind which the call ends."""
+_DOUBLE_POINT = re.compile(
+    rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER}(?: [0-9]{{1,2}}(?!\S))?)(?= ?(?:$|\||#))"
+)
+"""Taxiway of two letters, with or without a number, behind which the call ends."""
 _OF_LANDING = re.compile(r"(?<!\S)(?:land|landing|final|around)(?!\S)")
 """Words of an approach, which "continue" belongs to."""
 _OF = re.compile(
@@ -90,6 +92,9 @@ def go_around(segment: Segment, action: Action) -> Read | None:
 
 def continue_approach(segment: Segment, action: Action) -> Read | None:
     """Read "continue approach", whose runway is named before or after it, if at all."""
+    is_only = len(NAMED_RUNWAY.findall(segment.after)) == 1
+    if is_only and is_next_runway(segment) and segment.text.startswith("clear", segment.limit):
+        return alone(segment, action)  # The runway is that of the clearance.
     read = on_runway(segment, action)
     if read is None:
         return None

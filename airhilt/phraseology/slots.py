@@ -94,7 +94,8 @@ FIX_ENDS = (
     r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
     r"|number|squawking|below|above|remain|circle|change|published|enter|intersection|waypoint|vor"
     r"|who|what|where|why|how|which|we|you|i|he|she|they|there|is|are|was|right hand|left hand"
-    r"|since|weather"
+    r"|since|weather|orbit|extend|sidestep|side|return|execute"
+    r"|pushback|startup|stop|give|backtrack|going|vacate|exit"
     r"|vortac|ndb|v|by|own|delay)"
 )
 """Words that end the name of a fix."""

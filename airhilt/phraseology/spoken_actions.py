@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from airhilt.phraseology.call import Action, Instruction
 from airhilt.phraseology.numbers import Style, speak_digits, speak_thousands
@@ -15,7 +16,6 @@ from airhilt.phraseology.spoken_values import (
     speak_mach,
     speak_runway,
     speak_speed,
-    speak_taxiway,
     spell,
 )
 
@@ -28,7 +28,7 @@ _APPROACHES = {
 
 def phrase_of(instruction: Instruction, style: Style, *, readback: bool) -> str:
     """Return the words of one instruction, with its condition and its limit."""
-    words = _FORMS[instruction.action](instruction, style, readback)
+    words = _FORMS[instruction.action](_Slots(instruction, style, readback))
     if instruction.until is not None:
         words = f"{words} {_with_digits(instruction.until, style)}"
     if instruction.condition is None:
@@ -40,229 +40,185 @@ def _with_digits(words: str, style: Style) -> str:
     return re.sub(r"[0-9]+", lambda found: speak_digits(found[0], style), words)
 
 
-Speak = Callable[[Instruction, Style, bool], str]
+@dataclass(frozen=True, slots=True)
+class _Slots:
+    """The slots of an instruction in words; a slot without a value has none."""
+
+    told: Instruction
+    style: Style
+    readback: bool
+
+    @property
+    def turn(self) -> str:
+        return self.told.turn or ""
+
+    @property
+    def runway(self) -> str:
+        return speak_runway(self.told.runway, self.style) if self.told.runway else ""
+
+    @property
+    def place(self) -> str:
+        """Its position: a taxiway spelled, or a place in words."""
+        position = self.told.position or ""
+        if re.fullmatch(r"[A-Z][0-9]{0,2}", position):
+            return spell(position, self.style)
+        return _with_digits(position, self.style)
+
+    @property
+    def at(self) -> str:
+        return f"at {self.place}" if self.told.position else ""
+
+    @property
+    def level(self) -> str:
+        feet = self.told.altitude_ft
+        return speak_altitude(feet, self.style) if feet is not None else ""
+
+    @property
+    def speed(self) -> str:
+        speed_kt = self.told.speed_kt
+        return speak_speed(speed_kt, self.style) if speed_kt is not None else ""
+
+    @property
+    def at_or(self) -> str:
+        """Its bound before a level."""
+        return {"or_more": "at or above", "or_less": "at or below"}.get(self.told.bound or "", "")
+
+    @property
+    def or_greater(self) -> str:
+        """Its bound behind a value."""
+        return {"or_more": "or greater", "or_less": "or less"}.get(self.told.bound or "", "")
+
+    def now(self, words: str = "immediately") -> str:
+        return words if self.told.immediate else ""
+
+    def of(self, faa: str, icao: str) -> str:
+        return faa if self.style == "faa" else icao
+
+
+Speak = Callable[[_Slots], str]
 
 
 def _on_runway(words: str, immediate: str = "") -> Speak:
     """Return a form with the runway before its words, or after them in a readback."""
 
-    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
-        runway = join(_runway(instruction, style), _at(instruction, style))
-        text = (immediate if instruction.immediate and immediate else words).strip()
-        if readback or not instruction.runway:
-            return join(text, runway)
-        return join(f"{runway},", text)
+    def speak(of: _Slots) -> str:
+        runway = join(of.runway, of.at)
+        text = of.now(immediate) or words
+        is_behind = of.readback or not of.told.runway
+        return join(text, runway) if is_behind else join(f"{runway},", text)
 
     return speak
 
 
 def _then_runway(words: str) -> Speak:
     """Return a form with the runway after its words."""
-
-    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
-        del readback
-        delay = "without delay" if instruction.immediate else ""
-        return join(words, _runway(instruction, style), _at(instruction, style), delay)
-
-    return speak
+    return lambda of: join(words, of.runway, of.at, of.now("without delay"))
 
 
 def _alone(words: str, icao: str | None = None, readback: str | None = None) -> Speak:
     """Return a form that needs no details."""
 
-    def speak(instruction: Instruction, style: Style, is_readback: bool) -> str:
-        text = icao if icao and style == "icao" else words
-        return join(readback if readback and is_readback else text, _runway(instruction, style))
+    def speak(of: _Slots) -> str:
+        text = of.of(words, icao or words)
+        return join(readback if readback and of.readback else text, of.runway)
 
     return speak
-
-
-def _stop(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    return "stop immediately" if instruction.immediate or style == "icao" else "stop"
-
-
-def _hold_short(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    point = _runway(instruction, style) or (
-        speak_taxiway(instruction.hold_short, style) if instruction.hold_short else ""
-    )
-    return join("hold short", f"of {point}" if point else "", _at(instruction, style))
-
-
-def _taxi(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    to = _runway(instruction, style) or (
-        _place(instruction.position, style) if instruction.position else ""
-    )
-    via = ", ".join(speak_taxiway(each, style) for each in instruction.via)
-    return join("taxi", f"to {to}" if to else "", f"via {via}" if via else "")
-
-
-def _vacate(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    if instruction.immediate:
-        verb = "expedite exiting" if style == "faa" else "expedite vacating"
-    else:
-        verb = "exit" if style == "faa" else "vacate"
-    side = (
-        f"to the {instruction.turn}"
-        if instruction.turn and instruction.runway
-        else instruction.turn or ""
-    )
-    return join(verb, _runway(instruction, style), side, _at(instruction, style))
-
-
-def _altitude(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    level = (
-        speak_altitude(instruction.altitude_ft, style)
-        if instruction.altitude_ft is not None
-        else ""
-    )
-    if instruction.bound:
-        level = f"{_at_or(instruction)} {level}"
-    if instruction.sense in (None, "maintain"):
-        return join("maintain", level, "immediately" if instruction.immediate else "")
-    verb = "climb" if instruction.sense == "climb" else "descend"
-    if instruction.immediate:
-        verb = "expedite climb" if instruction.sense == "climb" else "expedite descent"
-    return join(verb, ("and maintain" if style == "faa" else "to") if level else "", level)
-
-
-def _heading(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    if instruction.heading_deg is None:
-        if instruction.turn:
-            now = "immediately" if instruction.immediate else ""
-            return join(f"turn {instruction.turn}", now, _at(instruction, style))
-        verb = "maintain" if instruction.position == "present heading" else "fly"
-        return join(verb, instruction.position or "runway heading")
-    heading = f"heading {speak_heading(instruction.heading_deg, style)}"
-    now = "immediately" if instruction.immediate else ""
-    return (
-        join(f"turn {instruction.turn}", now, heading)
-        if instruction.turn
-        else join("fly", heading, now)
-    )
-
-
-def _at_or(instruction: Instruction) -> str:
-    side = {"or_more": "at or above", "or_less": "at or below", None: "at"}
-    return side[instruction.bound]
-
-
-def _or_greater(instruction: Instruction) -> str:
-    side = {"or_more": "or greater", "or_less": "or less", None: ""}
-    return side[instruction.bound]
-
-
-def _speed(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    if instruction.speed_kt is None:
-        return join("reduce to", instruction.named or "minimum", "speed")
-    return join("maintain", speak_speed(instruction.speed_kt, style), _or_greater(instruction))
-
-
-def _mach(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    return join("maintain", speak_mach(instruction.mach or 0.0, style), _or_greater(instruction))
-
-
-def _resume_speed(instruction: Instruction, style: Style, readback: bool) -> str:
-    del style, readback
-    return join("resume", instruction.named or "normal", "speed")
-
-
-def _turn_by(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    degrees = speak_digits(f"{round(instruction.turn_deg or 0.0)}", style)
-    return join("turn", degrees, "degrees", instruction.turn or "")
-
-
-def _cross_fix(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    level_ft, speed_kt = instruction.altitude_ft, instruction.speed_kt
-    level = join(_at_or(instruction), speak_altitude(level_ft, style)) if level_ft else ""
-    speed = join("at", speak_speed(speed_kt, style)) if speed_kt else ""
-    return join("cross", _place(instruction.position or "", style), level, speed)
-
-
-def _via_procedure(verb: str, procedure: str) -> Speak:
-    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
-        del readback
-        name = instruction.position
-        return f"{verb} via the {_place(name, style)} {procedure}" if name else f"{verb} via"
-
-    return speak
-
-
-def _rate(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    rate = speak_thousands(round(instruction.rate_fpm or 0.0), style)
-    return join("at", rate, "feet per minute", _or_greater(instruction))
-
-
-def _hold_at(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    turns = f"{instruction.turn} turns" if instruction.turn else ""
-    return join("hold at", _place(instruction.position or "", style), turns)
-
-
-def _circle(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    return join("circle to", _runway(instruction, style))
-
-
-def _direct(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    turn = f"turn {instruction.turn}" if instruction.turn else ""
-    return join(turn, "proceed direct", _place(instruction.position or "", style))
-
-
-def _squawk(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    return join("squawk", speak_digits(instruction.squawk or "", style))
-
-
-def _station(verb: str) -> Speak:
-    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
-        del readback
-        khz = instruction.frequency_khz
-        frequency = speak_frequency(khz, style) if khz is not None else ""
-        return join(verb, instruction.position or "", frequency)
-
-    return speak
-
-
-def _approach(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    kind = _APPROACHES.get(instruction.approach or "", instruction.approach or "")
-    kind = join(kind, spell(instruction.variant or "", style))
-    runway = _runway(instruction, style)
-    if style == "faa":
-        return join("cleared", kind, runway, "approach")
-    return join("cleared", kind, "approach", runway)
 
 
 def _about(verb: str) -> Speak:
-    def speak(instruction: Instruction, style: Style, readback: bool) -> str:
-        del readback
-        return join(verb, _place(instruction.position, style) if instruction.position else "")
+    return lambda of: join(verb, of.place)
+
+
+def _station(verb: str) -> Speak:
+    def speak(of: _Slots) -> str:
+        khz = of.told.frequency_khz
+        frequency = speak_frequency(khz, of.style) if khz is not None else ""
+        return join(verb, of.told.position or "", frequency)
 
     return speak
 
 
-def _wildlife(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    where = f"on {_runway(instruction, style)}" if instruction.runway else "reported"
-    return join("wildlife", where, _at(instruction, style))
+def _via_procedure(verb: str, procedure: str) -> Speak:
+    return lambda of: f"{verb} via the {of.place} {procedure}" if of.place else f"{verb} via"
 
 
-def _wildlife_gone(instruction: Instruction, style: Style, readback: bool) -> str:
-    del readback
-    runway = _runway(instruction, style) or "the runway"
-    return join("wildlife has left", runway, _at(instruction, style))
+def _hold_short(of: _Slots) -> str:
+    point = of.runway or spell(of.told.hold_short or "", of.style)
+    return join("hold short", f"of {point}" if point else "", of.at)
+
+
+def _taxi(of: _Slots) -> str:
+    to = of.runway or of.place
+    via = ", ".join(spell(each, of.style) for each in of.told.via)
+    return join("taxi", f"to {to}" if to else "", f"via {via}" if via else "")
+
+
+def _vacate(of: _Slots) -> str:
+    verb = of.of("exit", "vacate")
+    if of.told.immediate:
+        verb = of.of("expedite exiting", "expedite vacating")
+    side = f"to the {of.turn}" if of.turn and of.runway else of.turn
+    return join(verb, of.runway, side, of.at)
+
+
+def _altitude(of: _Slots) -> str:
+    sense = of.told.sense
+    level = join(of.at_or, of.level)
+    if sense in (None, "maintain"):
+        return join("maintain", level, of.now())
+    verb = "climb" if sense == "climb" else "descend"
+    if of.told.immediate:
+        verb = "expedite climb" if sense == "climb" else "expedite descent"
+    return join(verb, of.of("and maintain", "to") if level else "", level)
+
+
+def _heading(of: _Slots) -> str:
+    told, turn = of.told, f"turn {of.turn}" if of.turn else ""
+    if told.heading_deg is not None:
+        heading = f"heading {speak_heading(told.heading_deg, of.style)}"
+        return join(turn, of.now(), heading) if turn else join("fly", heading, of.now())
+    if turn:
+        return join(turn, of.now(), of.at)
+    verb = "maintain" if told.position == "present heading" else "fly"
+    return join(verb, told.position or "runway heading")
+
+
+def _speed(of: _Slots) -> str:
+    if of.told.speed_kt is None:
+        return join("reduce to", of.told.named or "minimum", "speed")
+    return join("maintain", of.speed, of.or_greater)
+
+
+def _cross_fix(of: _Slots) -> str:
+    level = join(of.at_or or "at", of.level) if of.level else ""
+    return join("cross", of.place, level, f"at {of.speed}" if of.speed else "")
+
+
+def _rate(of: _Slots) -> str:
+    rate = speak_thousands(round(of.told.rate_fpm or 0.0), of.style)
+    return join(of.told.sense or "", "at", rate, "feet per minute", of.or_greater)
+
+
+def _turn_by(of: _Slots) -> str:
+    degrees = speak_digits(f"{round(of.told.turn_deg or 0.0)}", of.style)
+    return join("turn", degrees, "degrees", of.turn)
+
+
+def _approach(of: _Slots) -> str:
+    name = of.told.approach or ""
+    kind = join(_APPROACHES.get(name, name), spell(of.told.variant or "", of.style))
+    runway = of.runway
+    return join("cleared", kind, of.of(runway, "approach"), of.of("approach", runway))
+
+
+def _orbit(of: _Slots) -> str:
+    return of.of(join("make", of.turn or "a", "three sixty"), join("orbit", of.turn))
+
+
+def _join_leg(of: _Slots) -> str:
+    leg = of.told.position or "downwind"
+    verb = of.of("make" if leg == "straight in" else "enter", "join")
+    return join(verb, of.turn, leg, of.runway)
 
 
 _FORMS: dict[Action, Speak] = {
@@ -270,6 +226,7 @@ _FORMS: dict[Action, Speak] = {
     "cleared_for_takeoff": _on_runway("cleared for takeoff", "cleared for immediate takeoff"),
     "line_up": _on_runway("line up and wait"),
     "touch_and_go": _on_runway("cleared touch and go"),
+    "stop_and_go": _on_runway("cleared stop and go"),
     "low_approach": _on_runway("cleared low approach"),
     "cleared_option": _on_runway("cleared for the option"),
     "hold_short": _hold_short,
@@ -281,56 +238,48 @@ _FORMS: dict[Action, Speak] = {
         "cancel takeoff clearance", icao="cancel takeoff, I say again, cancel takeoff"
     ),
     "cancel_landing": _alone("cancel landing clearance"),
+    "cancel_approach": _alone("cancel approach clearance"),
     "go_around": _alone("go around", readback="going around"),
+    "missed_approach": _alone("execute missed approach"),
     "cleared_approach": _approach,
     "continue_approach": _alone("continue approach"),
+    "circle": lambda of: join("circle to", of.runway),
+    "side_step": lambda of: join("side step", f"to {of.runway}" if of.runway else ""),
     "vacate": _vacate,
     "taxi": _taxi,
-    "stop": _stop,
+    "stop": lambda of: of.of(join("stop", of.now()), "stop immediately"),
     "push_back": _alone("push back approved"),
     "start_up": _alone("start up approved"),
     "follow": _about("follow"),
     "give_way": _about("give way to"),
     "altitude": _altitude,
-    "heading": _heading,
-    "speed": _speed,
-    "direct": _direct,
-    "stop_and_go": _on_runway("cleared stop and go"),
-    "circle": _circle,
-    "cancel_approach": _alone("cancel approach clearance"),
-    "missed_approach": _alone("execute missed approach"),
-    "cross_fix": _cross_fix,
+    "vertical_rate": _rate,
     "climb_via": _via_procedure("climb", "departure"),
     "descend_via": _via_procedure("descend", "arrival"),
-    "vertical_rate": _rate,
+    "cross_fix": _cross_fix,
+    "heading": _heading,
     "turn_by": _turn_by,
-    "hold_at": _hold_at,
-    "mach": _mach,
-    "resume_speed": _resume_speed,
+    "direct": lambda of: join(f"turn {of.turn}" if of.turn else "", "proceed direct", of.place),
+    "hold_at": lambda of: join("hold at", of.place, f"{of.turn} turns" if of.turn else ""),
+    "own_navigation": _alone("resume own navigation"),
+    "orbit": _orbit,
+    "extend": lambda of: join("extend", of.told.position or "downwind"),
+    "short_approach": _alone("make short approach"),
+    "join": _join_leg,
+    "return_to_field": _alone("return to the field"),
+    "speed": _speed,
+    "mach": lambda of: join("maintain", speak_mach(of.told.mach or 0.0, of.style), of.or_greater),
+    "resume_speed": lambda of: join("resume", of.told.named or "normal", "speed"),
     "no_speed_restrictions": _alone("no speed restrictions"),
+    "expedite": _alone("expedite"),
+    "squawk": lambda of: join("squawk", speak_digits(of.told.squawk or "", of.style)),
     "ident": _alone("squawk ident"),
     "visual_separation": _alone("maintain visual separation"),
-    "own_navigation": _alone("resume own navigation"),
-    "squawk": _squawk,
     "contact": _station("contact"),
     "monitor": _station("monitor"),
     "stand_by": _alone("stand by"),
     "report": _about("report"),
-    "wildlife": _wildlife,
-    "wildlife_gone": _wildlife_gone,
+    "say": _about("say"),
+    "wildlife": lambda of: join("wildlife", f"on {of.runway}" if of.runway else "reported", of.at),
+    "wildlife_gone": lambda of: join("wildlife has left", of.runway or "the runway", of.at),
 }
-
-
-def _runway(instruction: Instruction, style: Style) -> str:
-    return speak_runway(instruction.runway, style) if instruction.runway else ""
-
-
-def _at(instruction: Instruction, style: Style) -> str:
-    return f"at {_place(instruction.position, style)}" if instruction.position else ""
-
-
-def _place(place: str, style: Style) -> str:
-    """Return a taxiway spelled, or a place in words unchanged."""
-    if re.fullmatch(r"[A-Z][0-9]{0,2}", place):
-        return spell(place, style)
-    return _with_digits(place, style)

@@ -51,7 +51,7 @@ def squawk(segment: Segment, action: Action) -> Read | None:
 
 def contact(segment: Segment, action: Action) -> Read | None:
     """Read a change of frequency: its station, its frequency, or both."""
-    station = segment.found["station"]
+    station = segment.found["station"] or segment.found.groupdict().get("unit")
     station = station.strip() if station else None
     after = segment.after
     full, joined = FREQUENCY.search(after), _ON_JOINED.match(after)
@@ -76,17 +76,20 @@ def contact(segment: Segment, action: Action) -> Read | None:
         khz, confidence, found = frequency_khz(f"1{mhz}", fraction), sure, without_hundred
     if station is None and khz is None:
         return None
+    is_known = action == "contact" and _IS_KNOWN.match(segment.text, segment.found.end())
     read = Instruction(
         action,
         position=station,
         frequency_khz=khz,
-        confidence=confidence if khz else NO_VALUE,
+        confidence=confidence if khz else BARE_VALUE if is_known else NO_VALUE,
     )
     end = found.end() if found else 0
     return Read(read, segment.start, segment.found.end() + end)
 
 
 _NO_FREQUENCY = r"(?!\S)(?! (?:left|right|centre|knots|miles?|degrees|thousand|feet|oclock))"
+_IS_KNOWN = re.compile(r" ?(?:\||$|#|(?:when|once|on the|now|good|then|and)(?!\S))")
+"""Words behind a unit whose frequency the pilot knows (FAA Order JO 7110.65, 2-1-17)."""
 _BY_NUMBER = re.compile(r"(?:contact|monitor)(?:ing)?$")
 _SHORT_JOINED = re.compile(
     rf" (?:on |at |frequency )*(1[89]|2[0-9]|3[0-6])(?: decimal )?([0-9]{{1,3}}){_NO_FREQUENCY}"
@@ -162,14 +165,23 @@ def hold_on(segment: Segment, action: Action) -> Read | None:
 def report(segment: Segment, action: Action) -> Read | None:
     """Read what is to be reported, in words."""
     event = segment.found["event"]
-    what = (event or segment.found["other"]).strip()
+    other = segment.found.groupdict().get("other")
+    if event is None and other is None:  # The event stands before it.
+        return Read(Instruction(action), segment.start, segment.found.end())
+    what = (event or other or "").strip()
     if _SEEN.fullmatch(what):
         is_field = _FIELD.search(segment.before_all) is not None
         what = "field in sight" if is_field else "traffic in sight"
     is_whole = _EVENT_ENDS.match(segment.text, segment.found.end()) is not None
     is_whole = is_whole and _SHORT_LEVEL.search(what) is None
-    is_named = event is not None and is_whole and not segment.found[0].startswith("advise when")
+    is_named = event is not None and is_whole and not event.startswith("when")
     read = Instruction(action, position=what, confidence=1.0 if is_named else LONG_NAME)
+    return Read(read, segment.start, segment.found.end())
+
+
+def said(segment: Segment, action: Action) -> Read | None:
+    """Read what a pilot is to say at once."""
+    read = Instruction(action, position=segment.found["event"])
     return Read(read, segment.start, segment.found.end())
 
 
@@ -178,23 +190,26 @@ _SEEN = re.compile(r"(?:it|him|them|that|that one|that traffic) in sight")
 _EVENT_ENDS = re.compile(rf"$| (?:\||#|runway|for|{FIX_ENDS})")
 _FIELD = re.compile(r"(?<!\S)(?:field|airport|aerodrome|airfield)(?!\S)")
 _NAMED_RUNWAY = r"(?: runway [0-9]{1,2}(?: (?:left|right|centre|l|r|c))?(?! cleared))?"
+_LEG = r"(?:short |long |left |right )?(?:final|downwind|base|crosswind|upwind)"
 _EVENT = (
     rf"(?:(?:fully )?established(?: on the (?:localizer|localiser|glide path|ils|i l s"
-    r"|downwind|approach))?"
+    r"|downwind|final|missed approach|approach))?"
     rf"{_NAMED_RUNWAY}|(?:the )?(?:field|airport|aerodrome|runway|traffic|it|him|them|that traffic)"
     r" in sight"
-    rf"|in sight|turning (?:left |right )?(?:base|final|downwind|crosswind)"
+    rf"|in sight|(?:before )?turning (?:left |right )?(?:base|final|downwind|crosswind)"
     rf"|(?:passing|leaving|reaching|through|level|over|crossing|at) "
     rf"(?:the )?(?:{LEVEL_WORDS}|{FIX})|[0-9]{{1,2}} miles? (?:final|out)(?! extend)"
-    r"|(?:runway )?vacated"
-    rf"|ready(?: (?:to copy|for departure|to taxi))?|(?:short |long )?final"
+    r"|(?:runway )?vacated|clear(?: of (?:the )?(?:runway|traffic|weather)(?! [0-9]))?|lined up"
+    r"|ready(?: (?:to|for) (?:the )?[a-z]+)?|complete|abeam (?:the )?[a-z]+"
+    r"|(?:leaving|entering) the [a-z]+"
     r"|(?:new )?(?:heading|speed|altitude|level|position)"
-    rf"|(?:left |right )?(?:downwind|base|crosswind)|procedure turn inbound|airborne)(?!\S)"
+    rf"|(?:on |midfield )?{_LEG}|on (?:the )?(?:missed approach|stand|frequency)"
+    r"|procedure turn inbound|airborne)(?!\S)"
 )
 _OTHER = rf"(?:(?!{FIX_ENDS}(?!\S)|\|)[a-z]+(?: (?!{FIX_ENDS}(?!\S))[a-z]+){{0,2}})"
 
 FORMS: Listed = (
-    ("squawk squawking", "squawk", r"squawk(?:ing)? (?P<code>[0-7]{4})", squawk),
+    ("squawk squawking", "squawk", r"squawk(?:ing)?(?: number)? (?P<code>[0-7]{4})", squawk),
     ("squawk squawking", "squawk", r"squawk(?:ing)? (?P<thousands>[0-7]) thousand", squawk),
     ("squawk squawking", "squawk", r"squawk(?:ing)? (?:v f r|vfr)", squawk),
     ("squawk squawking", "ident", r"squawk(?:ing)? ident", alone),
@@ -203,9 +218,9 @@ FORMS: Listed = (
      nothing),
     ("ident", "ident", r"ident", alone),
     ("stop", "squawk", r"stop squawk", nothing),
-    ("advise call", "report",
-     r"(?:advise|call)(?: me)?(?: when you have)?"
-     r" (?P<event>(?:the )?(?:field|airport|runway|traffic) in sight)", report),
+    ("advise call let tell", "report",
+     rf"(?:advise|call|let|tell)(?: me| us)?(?: know)?(?: (?:when|once)(?: you are| you have)?|"
+     rf"(?= ready| [a-z ]+ in sight)) (?P<event>{_EVENT})", report),
     ("contact contacting call try", "contact",
      r"(?:contact(?:ing)?|call|try)"
      rf"(?P<station>(?: (?!(?:{FIX_ENDS}|me|my|frequency)(?!\S))[a-z]+){{1,2}}|)"
@@ -225,7 +240,8 @@ FORMS: Listed = (
      r"|(?<=ground )decimal (?P<fraction>[0-9]{1,3})"
      rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),
-    ("stand standby", "monitor", rf"stand ?by(?: for| on)?(?P<station>{_STATION})", contact),
+    ("stand standby", "monitor",
+     rf"stand ?by(?: (?:for|on)(?P<station>{_STATION})|(?P<unit> (?:{UNIT})(?!\S)))", contact),
     ("hold", "stand_by", rf"hold on(?! (?:the|to|taxiway|stand|gate|{LETTER})(?!\S))", hold_on),
     ("stand standby", "stand_by",
      r"stand ?by(?! (?:this|on)(?!\S)| for (?!(?:your |a )?(?:clearance|push|start)))",
@@ -235,11 +251,20 @@ FORMS: Listed = (
      r"|visual(?= \||$| cleared| from))", alone),
     ("visual", "visual_separation", r"visual separation(?=.* approved)", alone),
     ("report", "report",
-     r"(?<!wildlife )(?<!ride )(?<!position )(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
-     rf"report (?:your |the (?=heading|speed|level))?(?:(?P<event>{_EVENT})"
-     rf"|(?P<other>{_OTHER}))", report),
+     r"(?<!wildlife )(?<!ride )(?:(?<!position )|(?<=hold position ))"
+     r"(?<!(?<!\S)a )(?<!pilot )(?<!bird )(?<!weather )"
+     rf"report (?:(?:when|once|after) (?:you are |you )?|your |the (?=heading|speed|level))?"
+     rf"(?:(?P<event>{_EVENT})|(?P<other>{_OTHER}))", report),
+    ("report advise call let tell", "report",
+     r"(?:report|advise(?: me)?|call(?: me)?|let me know|tell me)(?P<event>(?!))?"
+     r"(?= \||$)", report),
+    ("say", "say",
+     r"say (?:your |the )?(?:(?:present|current|indicated) )?"
+     r"(?P<event>(?:assigned )?(?:altitude|level|airspeed|speed|heading)|position|intentions|type"
+     r"|mach(?: number)?|fuel remaining|souls on board(?: and fuel remaining)?)"
+     r"(?: leaving| aircraft)?", said),
     ("advise", "report",
-     rf"advise (?P<event>when (?:able|ready|you can|clear|established)(?:(?: take| for)?"
+     rf"advise (?P<event>when (?:able|you can)(?:(?: take| for)?"
      rf" (?:direct(?: to)? {FIX}|higher|lower))?)", report),
 )  # fmt: skip
 """Forms of frequencies, transponders and reports."""

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+from typing import cast
 
 from airhilt.phraseology.call import Action, Bound, Instruction, Sense
 from airhilt.phraseology.forms import (
     BARE_VALUE,
+    IMMEDIATE,
     NO_VALUE,
     Listed,
     Read,
     Segment,
+    alone,
     fix_of,
     is_immediate,
     nothing,
@@ -145,6 +148,8 @@ def altitude(segment: Segment, action: Action) -> Read | None:
         taken = 0
     if feet is None and sense in ("maintain", None):
         return None
+    if feet is None and after.strip() in IMMEDIATE:
+        confidence = 1.0  # A traffic alert names no level (FAA Order JO 7110.65, 2-1-6).
     if taken and sense in ("climb", "descend") and after.startswith(" at "):
         confidence = min(confidence, SHORTENED)  # It may be a rate whose unit is lost.
     end = segment.found.end() + taken
@@ -259,7 +264,7 @@ def cross_fix(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, end, (kept,))
 
 
-_ALONG = re.compile(r" (?:on )?(?:runway|present) heading(?= to(?!\S))")
+_ALONG = re.compile(r" (?:(?:on )?(?:runway|present) heading|straight ahead)(?= to(?!\S))")
 """A heading between a climb and its level."""
 _PASSED = re.compile(r" through(?!\S)")
 """A level that is only passed: the climb or the descent goes on."""
@@ -314,7 +319,9 @@ def rate(segment: Segment, action: Action) -> Read | None:
     fpm = float(plain) if plain else float(thousands) * 1000.0 + float(hundreds or 0)
     bound, end, or_sure = bound_after(segment.text[: segment.limit], found.end())
     sure = or_sure if fpm % 100.0 == 0.0 and 0.0 < fpm <= 8000.0 else NO_SENSE
-    return Read(Instruction(action, rate_fpm=fpm, bound=bound, confidence=sure), segment.start, end)
+    sense = cast("Sense | None", found.groupdict().get("sense"))
+    told = Instruction(action, sense=sense, rate_fpm=fpm, bound=bound, confidence=sure)
+    return Read(told, segment.start, end)
 
 
 _OR = r"(?: at or (?P<bound>above|below))?"
@@ -349,6 +356,9 @@ FORMS: Listed = (
      rf"descend(?:ing)? via(?: the)?{_PROCEDURE}"
      r"(?: (?:star|arrival)|(?= except| altimeter| qnh| \||$))",
      via_procedure),
+    ("climb climbing descend descending", "vertical_rate",
+     rf"(?P<sense>climb|descend)(?:ing)? (?:at|with) {_RATE}(?: feet)? (?:per minute|a minute|min)",
+     rate),
     ("climb climbing descend descending maintain", "altitude",
      r"(?:climb|descend|maintain)(?:ing)?(?: to)?(?: (?:and )?maintain(?:ing)?)?(?: a)? block",
      nothing),
@@ -366,6 +376,7 @@ FORMS: Listed = (
      r"expedit(?:e|ing) (?:your |the )?(?:climb|descent|descend)(?: to| and maintain)?"
      rf"{_OR}",
      altitude),
+    ("expedite", "expedite", r"(?:^|(?<=\| ))expedite(?= \||$)", alone),
     ("not", "altitude",
      r"not (?:to be )?(?P<bound>above|below)(?= [0-9]| flight| level| altitude [0-9])",
      limited_level),

@@ -7,8 +7,8 @@ import re
 from airhilt.phraseology import denials
 from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
 from airhilt.phraseology.alphabet import LETTERS
+from airhilt.phraseology.clauses import CONDITIONS, EVENTS
 from airhilt.phraseology.numbers import DIGITS, TEENS, TENS
-from airhilt.phraseology.scan import CONDITIONS, EVENTS
 from airhilt.phraseology.slots import FIX_ENDS, RUNWAY
 from airhilt.phraseology.words import UNITS
 
@@ -28,7 +28,8 @@ WORDS = frozenset(
     {*re.findall(r"[a-z]+", " ".join(_PATTERNS)), *LETTERS, *DIGITS, *TEENS, *TENS, *UNITS,
      *CONDITIONS, *COURTESIES, *denials.DENIALS, *denials.OPEN, *denials.SOMEBODY,
      *denials.OTHERS, *denials.BETWEEN, *denials.SPOKEN_OF, *denials.AFTERWARDS, "departing",
-     "winds", "surface"}
+     "winds", "surface", "waiting", "alert", "again", "incorrect",
+     "avoiding", "action"}
 ) - {"able"}  # fmt: skip
 """Words that the grammar knows. "Able" is none without its "when": that may be what is lost."""
 _RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY}")

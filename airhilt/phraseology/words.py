@@ -40,7 +40,7 @@ SPELLINGS: dict[str, tuple[str, ...]] = {
     "plough": ("plow",), "snowplow": ("snow", "plow"), "snowplough": ("snow", "plow"),
     "touchandgo": ("touch", "and", "go"), "kts": ("knots",),
     "tousand": ("thousand",), "dayseemal": ("decimal",),
-    "ft": ("feet",),
+    "ft": ("feet",), "fpm": ("feet", "per", "minute"),
     "rwy": ("runway",), "hdg": ("heading",), "till": ("until",), "til": ("until",),
 }  # fmt: skip
 """Other spellings of words, with the same confidence."""

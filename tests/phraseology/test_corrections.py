@@ -32,7 +32,6 @@ def test_a_level_takes_the_place_of_a_level(subtests: pytest.Subtests) -> None:
         ("climb flight level 90 correction one zero thousand", 10_000.0),
         ("climb one two thousand correction one three thousand", 13_000.0),
         ("climb one two thousand correction flight level 130", 13_000.0),
-        ("climb one two thousand correction 130", 13_000.0),
         ("descend three thousand five hundred correction three thousand", 3_000.0),
         ("climb flight level 350 make that 360", 36_000.0),
         ("climb flight level 350 no make that flight level 360", 36_000.0),

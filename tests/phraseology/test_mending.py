@@ -23,8 +23,6 @@ def test_a_word_that_sounds_like_the_one_that_fits_is_taken_for_it(
             "conduct tower one one eight decimal three",
             "contact tower one one eight decimal three",
         ),
-        ("cleared a less runway two seven approach", "cleared ils runway two seven approach"),
-        ("cleared eye less approach runway two seven", "cleared ils approach runway two seven"),
         ("runway two seven cleared to lend", "runway two seven cleared to land"),
         ("ronway two seven cleared to land", "runway two seven cleared to land"),
         ("squat four one two one", "squawk four one two one"),

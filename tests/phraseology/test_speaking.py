@@ -183,6 +183,12 @@ SPEAKABLE: dict[Action, st.SearchStrategy[Instruction]] = {
     "contact": made("contact", position=stations, frequency_khz=channels),
     "monitor": made("monitor", position=stations, frequency_khz=channels),
     "report": made("report", position=st.sampled_from(["ready", "final", "field in sight"])),
+    "orbit": made("orbit", turn=st.none() | turns),
+    "extend": made("extend", position=st.sampled_from(["downwind", "upwind", "base"])),
+    "join": made("join", runway=maybe_runway, turn=st.none() | turns, position=st.sampled_from(
+        ["downwind", "base", "final", "crosswind", "straight in"])),
+    "side_step": made("side_step", runway=runways),
+    "say": made("say", position=st.sampled_from(["altitude", "heading", "intentions"])),
     "wildlife": made("wildlife", runway=runways, position=maybe_taxiway),
     "wildlife_gone": made("wildlife_gone", runway=runways, position=maybe_taxiway),
 }  # fmt: skip

@@ -97,6 +97,22 @@ def _wind(item: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value.get(name) for name in ("direction_deg", "speed_kt", "gust_kt")}
 
 
+def _in_circuit(item: dict[str, Any]) -> dict[str, Any]:
+    """Return what an item of the kind "circuit" says by its manner: "left base", "short approach".
+
+    The side of the circuit ("left traffic") is out of scope.
+    """
+    manner = (item["manner"] or "").replace("_", " ").replace(" hand", "")
+    if manner == "short approach":
+        return {**item, "kind": "short_approach"}
+    leg = manner.removeprefix("extended ").removeprefix("extend ")
+    side = leg.split()[0] if leg.startswith(("left ", "right ")) else None
+    leg = leg.removeprefix("left ").removeprefix("right ")
+    kind = "extend" if "extend" in manner else "join" if leg in LEGS else "circuit"
+    return {**item, "kind": kind, "value": {"runway": item["value"], "leg": leg, "turn": side}}
+
+
+LEGS = ("downwind", "base", "final", "crosswind", "upwind", "straight in")
 VALUES: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "altitude": _altitude,
     "crossing_restriction": _crossing,
@@ -151,6 +167,10 @@ VALUES: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "visual_separation": _nothing,
     "standby": _nothing,
     "report": _words,
+    "orbit": lambda item: {"turn": item["manner"]},
+    "short_approach": _nothing,
+    "extend": lambda item: {"leg": item["value"]["leg"]},
+    "join": lambda item: item["value"],
 }
 """Values of the kinds in scope. What a parser may leave out is not among them, such as the words
 of a condition, the limit of a level, and whom to follow."""
@@ -178,6 +198,10 @@ def facts_of_items(items: list[dict[str, Any]]) -> Iterator[tuple[Fact, str]]:
             yield Fact("stop", "now"), "report"
         if item["kind"] == "state":  # "Report speed" and "say speed" ask for one thing.
             yield _fact("report", "now", _words(item)), "report"
+            yield _fact("say", "now", _asked(item["value"])), "report"
+        if item["kind"] == "expedite":
+            yield Fact("expedite", "now"), "report"
+        item = _in_circuit(item) if item["kind"] == "circuit" else item
         read = VALUES.get(item["kind"])
         if read is None:
             continue
@@ -290,6 +314,10 @@ def fact_of(said: Instruction, status: str) -> Fact:
         "hold_short": {"point": said.runway or said.hold_short},
         "vacate_runway": {"point": said.position, "turn": said.turn},
         "report": {"words": _tokens(said.position)},
+        "orbit": {"turn": said.turn},
+        "say": _asked(said.position),
+        "extend": {"leg": said.position},
+        "join": {"runway": said.runway, "leg": said.position, "turn": said.turn},
     }
     values = of_kinds.get(kind, {})
     if kind in VALUES and not values and VALUES[kind] is not _nothing:
@@ -316,6 +344,11 @@ def _frequency_read(said: Instruction) -> dict[str, Any]:
         return {"frequency_khz": said.frequency_khz, "is_monitored": is_monitored}
     unit = said.position.split()[-1] if said.position else None
     return {"unit": unit, "is_monitored": is_monitored}
+
+
+def _asked(words: str | None) -> dict[str, Any]:
+    """Return what is to be said; an assigned value is asked for as the value is."""
+    return {"words": _tokens((words or "").removeprefix("assigned "))}
 
 
 def _fact(kind: str, status: str, values: Mapping[str, Any]) -> Fact:

@@ -1,12 +1,16 @@
-"""The actions in the words of a call, and the words between them about others and of conditions."""
+"""The clauses of a call: its words, cut once at actions, conditions and words about others."""
 
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
+from itertools import accumulate
 from typing import NamedTuple
 
 from airhilt.phraseology.actions import FORMS, NUMBER_FORMS
 from airhilt.phraseology.alphabet import LETTER_OF
+from airhilt.phraseology.call import CLEARANCES
+from airhilt.phraseology.denials import BETWEEN
 from airhilt.phraseology.forms import Form
 from airhilt.phraseology.ground import route, taxi, vacate
 from airhilt.phraseology.hits import NAME
@@ -15,22 +19,12 @@ from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, SIDED_RUNWAY, TA
 from airhilt.phraseology.speeds import KNOTS_FORM
 from airhilt.phraseology.surveillance import FREQUENCY_FORM
 from airhilt.phraseology.vertical import cross_fix
+from airhilt.phraseology.words import Words
 
 CONDITIONS = frozenset(
-    {
-        "behind",
-        "after",
-        "when",
-        "until",
-        "before",
-        "once",
-        "if",
-        "unless",
-        "upon",
-        "whenever",
-        "provided",
-    }
-)
+    {"behind", "after", "when", "until", "before", "once", "if", "unless", "upon", "whenever",
+     "provided"}
+)  # fmt: skip
 """First words of a condition (ICAO Doc 4444, 12.2.7)."""
 LONGEST_CONDITION = 9
 """Most words in a condition."""
@@ -43,6 +37,10 @@ _HAPPENED = frozenset(
      "rolls", "goes"}
 )  # fmt: skip
 """Last words of a condition, behind which a route may begin."""
+_INCOMPLETE = frozenset({"be", "been", "is", "are", "was", "were", "to", "your", "cleared"})
+"""Words of an event that go on with a clearance."""
+IDLE = frozenset({"and", "the"})
+"""Words without which an action means the same, however surely they were heard."""
 LONGEST_STATION = 6
 """Most words from "contact" to the frequency."""
 RUNWAY_NEXT = re.compile(rf" runway {RUNWAY}")
@@ -51,7 +49,8 @@ _AHEAD = re.compile(
     rf"(?<!crossing )(?<!the )(?<!\S){SIDED_RUNWAY})(?: at \S+)? $"
 )
 _TRAFFIC_NOT = frozenset({"pattern", "alert", "circuit"})
-_BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make"})
+_BEFORE_CIRCUIT = frozenset({"left", "right", "closed", "make", "follow", "following", "way"})
+_ARTICLES = frozenset({"the", "that", "to"})
 _VERB = (
     r"(?: (?:climb|descend|turn|fly|reduce|increase|slow|contact|monitor|proceed|maintain|speed"
     r"|hold|cleared|expedite|direct|cross|resume|squawk|heading)(?!\S))"
@@ -123,133 +122,154 @@ class Span(NamedTuple):
     is_traffic: bool
 
 
-class Scan:
-    """Finds the actions of a call, and the spans of traffic and conditions, in their order."""
+class _Open(NamedTuple):
+    """Words about traffic, or a condition, that may still go on."""
 
-    def __init__(self, texts: list[str], text: str, starts: list[int]) -> None:
-        self._texts = texts
-        self._text = text
-        self._starts = starts
+    start: int
+    first: int
+    is_traffic: bool
+
+
+class Line:
+    """The words of a call and their text, cut at its actions, its conditions and its traffic."""
+
+    def __init__(self, words: Words) -> None:
+        self.words = words
+        self.texts = words.texts
+        self.text = " ".join(words.texts)
+        self.starts = [0, *accumulate([len(word) + 1 for word in words.texts])]
         self.found: list[Found] = []
         self.spans: list[Span] = []
-        self._open_at: int | None = None
-        """Begin of the traffic or the condition that may still go on."""
-        self._begun = 0
-        """Index of its first word."""
-        self._is_traffic = False
-        free = 0
-        for index, word in enumerate(texts):
-            if starts[index] < free:
-                continue
-            is_number = word[0].isdigit() and not _BEHIND_NUMBERS.isdisjoint(
-                texts[index + 1 : index + 2]
-            )
-            if word in _BEGINNINGS or is_number or self._open_at is not None:
-                free = self._take(index, word) or free
-        if self._open_at is not None:
-            self.spans.append(Span(self._open_at, len(text), self._is_traffic))
+        self._open: _Open | None = None
+        self._cut()
 
-    def _take(self, index: int, word: str) -> int:
-        """Take a word, and return the end of what begins with it."""
-        start = self._starts[index]
-        event = self._event_at(start, index, word) if word in EVENTS or word.isdigit() else None
+    def index(self, position: int) -> int:
+        """Return the index of the word at a position of the text."""
+        return bisect_right(self.starts, position) - 1
+
+    def heard(self, first: int, last: int) -> float:
+        """Return the least confidence of the recogniser in a range of words that count."""
+        said = zip(self.texts[first:last], self.words.confidences[first:last], strict=True)
+        return min([1.0 if word in IDLE else sure for word, sure in said], default=1.0)
+
+    def _cut(self) -> None:
+        free = 0
+        for index, word in enumerate(self.texts):
+            is_number = word[0].isdigit() and not _BEHIND_NUMBERS.isdisjoint(
+                self.texts[index + 1 : index + 2]
+            )
+            begins = word in _BEGINNINGS or is_number or self._open is not None
+            if begins and self.starts[index] >= free:
+                free = self._take_aside(index, word) or self._take_action(index, word) or free
+        self._close(len(self.text))
+
+    def _take_aside(self, index: int, word: str) -> int:
+        """Begin a condition, or words about traffic, and return their end if it is known."""
+        start, is_open = self.starts[index], self._open
+        is_free = is_open is None or is_open.is_traffic
+        event = self._event_at(start, index, word) if is_free else None
         if event is not None:
             self._close(start)
             self.spans.append(Span(start, event.end(), is_traffic=False))
             return event.end()
-        if word == "traffic" and self._open_at is None and _is_traffic(self._texts, index):
-            seen = SEEN.match(self._text, start)
-            if seen or self._texts[max(index - 2, 0) : index] == ["looking", "for"]:
+        if word == "traffic" and is_open is None and _is_traffic(self.texts, index):
+            seen = SEEN.match(self.text, start)
+            if seen or self.texts[max(index - 2, 0) : index] == ["looking", "for"]:
                 end = seen.end() if seen else start + len(word)
                 self.spans.append(Span(start, end, is_traffic=True))
                 return end
-            self._open(start, index, is_traffic=True)
-            return 0
-        is_number = word in _PLACED and "number" in self._texts[max(index - 4, 0) : index]
-        is_condition = word in CONDITIONS and not is_number
-        if is_condition and (self._open_at is None or self._is_traffic):
+            self._open = _Open(start, index, is_traffic=True)
+            return start + 1
+        is_number = word in _PLACED and "number" in self.texts[max(index - 4, 0) : index]
+        if word in CONDITIONS and not is_number and is_free:
             self._close(start)
-            self._open(start, index, is_traffic=False)
-            return 0
-        if self._open_at is not None:
-            self._close_at(word, start, index)
-        each = _action_at(self._texts, self._text, start, index)
+            self._open = _Open(start, index, is_traffic=False)
+            return start + 1
+        return 0
+
+    def _take_action(self, index: int, word: str) -> int:
+        """Take the action that begins with a word, and return its end; 0 if there is none."""
+        start = self.starts[index]
+        if self._open is not None and self._ends_here(self._open, index, word):
+            self._close(start)
+        each = _action_at(self.texts, self.text, start, index)
         if each is None or (self.found and _belongs_to(self.found[-1], each)):
             return 0
-        return self._take_action(each, word)
-
-    def _take_action(self, each: Found, word: str) -> int:
-        start, index = each.match.start(), each.first
-        if self._open_at is not None:
-            longest = LONGEST_TRAFFIC if self._is_traffic else LONGEST_CONDITION
-            is_others = word.endswith("ing") and each.form.action != "visual_separation"
-            if is_others and index - self._begun <= longest and not self._is_own(each):
+        if self._open is not None:
+            if self._is_others(self._open, each):
                 return each.match.end()
-            if self._texts[index - 1] in CONDITIONS:
+            if self._is_in_condition(self._open, each):
                 return 0
-            end = start
-            if self._is_traffic:
-                ahead = _AHEAD.search(self._text[self._open_at : start])
-                is_said = RUNWAY_NEXT.match(self._text, each.match.end())
-                end = self._open_at + ahead.start() if ahead and not is_said else start
-            self._close(end)
+            self._close(self._end_before(self._open, each))
         self.found.append(each)
         return each.match.end()
 
-    def _is_own(self, each: Found) -> bool:
-        """Return whether a pilot lines up, or crosses, behind whom the condition names.
+    def _is_others(self, aside: _Open, each: Found) -> bool:
+        """Return whether the traffic, or whom a condition names, does what is said.
 
-        The words that end the call are "behind" and the callsign.
+        A pilot lines up, or crosses, behind another if "behind" and the callsign end the call.
         """
-        text = self._text
-        return (
-            not self._is_traffic
-            and self._texts[0] != NAME
-            and _BEHIND_AGAIN.match(text, each.match.end()) is not None
+        longest = LONGEST_TRAFFIC if aside.is_traffic else LONGEST_CONDITION
+        is_readback = (
+            not aside.is_traffic
+            and self.texts[0] != NAME
+            and _BEHIND_AGAIN.match(self.text, each.match.end()) is not None
         )
+        return (
+            self.texts[each.first].endswith("ing")
+            and each.form.action != "visual_separation"
+            and each.first - aside.first <= longest
+            and not is_readback
+        )
+
+    def _is_in_condition(self, aside: _Open, each: Found) -> bool:
+        """Return whether an action is a part of the event that something else waits for.
+
+        A clearance is in "once you are cleared to land".
+        """
+        inner = self.texts[aside.first + 1 : each.first]
+        is_open = not inner or inner[-1] in _INCOMPLETE
+        is_cleared = each.form.action in CLEARANCES and BETWEEN.issuperset(inner)
+        return not aside.is_traffic and (is_open or is_cleared)
+
+    def _end_before(self, aside: _Open, each: Found) -> int:
+        """Return the end of words about traffic, or a condition, before an action.
+
+        The runway right before the action is its own.
+        """
+        start = each.match.start()
+        if not aside.is_traffic or RUNWAY_NEXT.match(self.text, each.match.end()):
+            return start
+        ahead = _AHEAD.search(self.text[aside.start : start])
+        return aside.start + ahead.start() if ahead else start
 
     def _event_at(self, start: int, index: int, word: str) -> re.Match[str] | None:
         """Return the condition that begins with a word and ends with its own words."""
-        if self._open_at is not None and not self._is_traffic:
-            return None
-        if word[0].isdigit():
-            return MILES_BEFORE.match(self._text, start) if word.isdigit() else None
+        if word.isdigit():
+            return MILES_BEFORE.match(self.text, start)
         pattern = EVENTS.get(word)
-        event = pattern.match(self._text, start) if pattern else None
-        if event is None or word != "at":
+        event = pattern.match(self.text, start) if pattern else None
+        if event is None or word != "at" or self.texts[:index] in ([], [NAME]):
             return event
-        if AT_LEVEL.match(event[0]) and self._texts[index - 1 : index] not in (
-            [],
-            [NAME],
-            ["then"],
-        ):
-            return None
-        is_taxiway = LETTER_AT.match(event[0]) and self._texts[index - 1 : index] not in (
-            [],
-            [NAME],
-        )
-        return None if is_taxiway else event
-
-    def _open(self, start: int, index: int, *, is_traffic: bool) -> None:
-        self._open_at, self._begun, self._is_traffic = start, index, is_traffic
+        is_level = AT_LEVEL.match(event[0]) and self.texts[index - 1] not in (NAME, "then")
+        is_taxiway = LETTER_AT.match(event[0]) and self.texts[index - 1] != NAME
+        return None if is_level or is_taxiway else event
 
     def _close(self, end: int) -> None:
-        if self._open_at is not None:
-            self.spans.append(Span(self._open_at, end, self._is_traffic))
-            self._open_at = None
+        if self._open is not None:
+            self.spans.append(Span(self._open.start, end, self._open.is_traffic))
+            self._open = None
 
-    def _close_at(self, word: str, start: int, index: int) -> None:
-        """Close what is open if it cannot go on with a word."""
-        if self._is_traffic:
-            if word == NAME:
-                self._close(start)
-            return
-        has_happened = self._texts[index - 1] in _HAPPENED and (
+    def _ends_here(self, aside: _Open, index: int, word: str) -> bool:
+        """Return whether what is open cannot go on with a word."""
+        if aside.is_traffic or word == NAME:
+            return word == NAME
+        if word == "runway" and self.texts[index - 1] in ("crossing", "the", "of"):
+            return False
+        has_happened = self.texts[index - 1] in _HAPPENED and (
             word in LETTER_OF or word[0].isdigit()
         )
-        ends = word in (NAME, "runway") or has_happened or index - self._begun >= LONGEST_CONDITION
-        if ends and not (word == "runway" and self._texts[index - 1] in ("crossing", "the", "of")):
-            self._close(start)
+        return word == "runway" or has_happened or index - aside.first >= LONGEST_CONDITION
 
 
 AT_LEVEL = re.compile(rf"at {LEVEL_WORDS}(?!\S)")
@@ -259,16 +279,20 @@ LETTER_AT = re.compile(rf"at {TAXIWAY}(?!\S)")
 
 
 def _is_traffic(texts: list[str], index: int) -> bool:
-    """Return whether the word "traffic" here means aircraft, not a traffic circuit."""
-    return texts[index - 1 : index] not in ([each] for each in _BEFORE_CIRCUIT) and not (
-        _TRAFFIC_NOT.intersection(texts[index + 1 : index + 2])
+    """Return whether the word "traffic" begins words about aircraft.
+
+    It begins none in a traffic circuit, or as whom to follow or give way to.
+    """
+    before = [each for each in texts[max(index - 3, 0) : index] if each not in _ARTICLES]
+    return _BEFORE_CIRCUIT.isdisjoint(before[-1:]) and _TRAFFIC_NOT.isdisjoint(
+        texts[index + 1 : index + 2]
     )
 
 
 def _action_at(texts: list[str], text: str, start: int, index: int) -> Found | None:
     forms = FORMS.get(texts[index], ())
-    if texts[index][0].isdigit() and index + 1 < len(texts):
-        forms += NUMBER_FORMS.get(texts[index + 1], ())
+    if texts[index][0].isdigit():
+        forms += NUMBER_FORMS.get("".join(texts[index + 1 : index + 2]), ())
     for form in forms:
         match = form.words.match(text, start)
         if match:
@@ -279,9 +303,11 @@ def _action_at(texts: list[str], text: str, start: int, index: int) -> Found | N
 def _belongs_to(last: Found, each: Found) -> bool:
     """Return whether the words of an action are a detail of the one before.
 
-    They are the frequency of a station to contact, the route of a taxi clearance, the side of a
-    turn off the runway, and the speed of a crossing restriction.
+    They are what an animal does, the frequency of a station to contact, the route of a taxi
+    clearance, the side of a turn off the runway, and the speed of a crossing restriction.
     """
+    if last.form.action == "wildlife" and each.match[0].endswith("ing"):
+        return last.match.end() + 1 == each.match.start()
     if each.form.build is route:
         return last.form.build is taxi
     if each.form.build is taxiway_turn:
