@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from airhilt.messages import AdvisoryKind
-from airhilt.quantities import FrequencyKhz, Number, Share
+from airhilt.quantities import FrequencyKhz, Share
 from airhilt.scenario.models.actors import Reactions
 
 Alerting = AdvisoryKind | Literal["conflict_alert"]
@@ -17,12 +17,9 @@ Alerting = AdvisoryKind | Literal["conflict_alert"]
 class Controller(Reactions):
     """Simulated controller of one unit: what it acts on, how soon, and how surely.
 
-    The median reaction time is assumed. With its sigma, 95 % of the controllers speak within 13 s,
-    where the tail of tower controllers lies (Kopald 2012).
+    Reaction time and compliance are those of the response model, unless given here.
     """
 
-    reaction_median_s: Number = Field(default=6.0, ge=0.0, le=120.0)
-    reaction_sigma: Number = Field(default=0.47, ge=0.0, le=2.0)
     acts_on: tuple[Alerting, ...] = Field(
         default=(
             "loss_of_separation",

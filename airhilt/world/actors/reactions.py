@@ -177,7 +177,7 @@ def reaction_models(scenario: Scenario, seed: int) -> dict[str, ReactionModel]:
     return found
 
 
-def controller_reactions(scenario: Scenario, unit: str, seed: int) -> ReactionModel:
+def controller_reactions(scenario: Scenario, unit: str, own: Reactions, seed: int) -> ReactionModel:
     """Return the reaction model of the controller of a unit."""
     responses = scenario.response_model.controllers
-    return ReactionModel(unit, responses, Reactions(), response_seed(scenario, seed))
+    return ReactionModel(unit, responses, own, response_seed(scenario, seed))

@@ -342,7 +342,7 @@ def test_who_descends_in_place_of_climbing_stays_above_the_ground(aircraft: Airc
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
     for ground_ft, level in ((0.0, 4_400.0), (4_200.0, 4_700.0)):
         aircraft.en_route.hold_altitude(5_000 * FOOT)
-        crew = Crew(spec, aircraft, ScenarioSite(centre, ground_ft * FOOT), 1, wrong)
+        crew = Crew(spec, aircraft, ScenarioSite(centre, ground_ft * FOOT), 1, responses=wrong)
         told = CLIMB.model_copy(update={"altitude_ft": 5_600})
         reaction = crew.hear(advisory(told))
         assert reaction.text == "follows altitude, in the opposite sense"

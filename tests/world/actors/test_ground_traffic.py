@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
@@ -105,8 +106,8 @@ def test_an_airliner_and_a_car_hold_short_and_cross_when_told() -> None:
         with pytest.raises(Unable, match="holding short of runway 04"):
             field.tell(callsign, "continue")
         field.tell(callsign, "cross", runway="04")
-        assert field.run(60.0, lambda who=callsign: field.on(who) == {"04/22"})
-        assert field.run(60.0, lambda who=callsign: field.on(who) == set())
+        for where in ({"04/22"}, set()):
+            assert field.run(60.0, partial(lambda who, at: field.on(who) == at, callsign, where))
 
 
 @pytest.mark.parametrize("kind", ["737", "c172p"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, get_args
+from typing import Any, cast, get_args
 
 import pytest
 
@@ -107,5 +107,7 @@ def test_when_ready_is_now_and_other_conditions_are_asked_about() -> None:
         ("line_up", "once the runway is clear"),
         ("heading", "behind the landing cessna"),
     ]:
-        asked = order(Instruction(action, "01", heading_deg=90.0, condition=condition))
+        asked = order(
+            Instruction(cast(Action, action), "01", heading_deg=90.0, condition=condition)
+        )
         assert asked.question == f"say again, {condition}"

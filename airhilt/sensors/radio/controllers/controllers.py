@@ -30,7 +30,7 @@ from airhilt.sensors.radio.controllers.strips import Contact, Strips
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
-from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
+from airhilt.world.actors.reactions import FOLLOWED_FROM, controller_reactions
 
 MOST_CORRECTIONS = 2
 """Number of times that a controller corrects the readback of one instruction."""
@@ -65,7 +65,9 @@ class Controllers:
         self._calls = ControllerCalls(context, speakers, self._displays, self._strips)
         declared = context.scenario.controllers
         self._positions = {
-            unit: Position(unit, each, ReactionModel(unit, each, context.seed))
+            unit: Position(
+                unit, each, controller_reactions(context.scenario, unit, each, context.seed)
+            )
             for unit in controlling_units(context.scenario)
             for each in [declared.get(unit, Controller())]
         }
@@ -142,12 +144,16 @@ class Controllers:
         advisory = alert.advisory
         if not self._concerns(position, alert):
             return
-        if not position.reactions.complies(advisory.id):
+        response = position.reactions.respond(
+            "assistant",
+            advisory.id,
+            revision=advisory.revision,
+            is_repeated=advisory.id in position.attended,
+        )
+        if not response.follows:
             self._silent(position, advisory, "does not respond")
             return
-        again = advisory.id in position.attended
-        delay_s = position.reactions.delay_s(advisory, again)
-        self._director.after(delay_s, partial(self._look, position, advisory.id))
+        self._director.after(response.delay_s, partial(self._look, position, advisory.id))
 
     def _look(self, position: Position, identity: str) -> None:
         """Look at all that is shown, because of one advisory, unless that is over."""
@@ -165,7 +171,7 @@ class Controllers:
 
     def _heeds(self, position: Position, advisory: Advisory) -> bool:
         """Return whether a controller acts on an advisory that it has seen."""
-        if not position.reactions.complies(advisory.id):
+        if not position.reactions.respond("assistant", advisory.id).follows:
             return False
         now_ns = self._director.now_ns
         if self._ignores(position, advisory.id) and self._judgement.is_contradicted(
