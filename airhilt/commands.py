@@ -324,6 +324,7 @@ class ContactCommand(_Command):
     action: Literal["contact"]
     unit: Name | None = Field(default=None, description="null: whoever is on the frequency")
     frequency_khz: Count | None = Field(default=None, description="null: that of the unit")
+    calls: Flag = Field(default=True, description="false: it only listens there")
 
 
 # --- wildlife -------------------------------------------------------------------------------

@@ -203,6 +203,7 @@ class Simulation:
             partial(context.lose_modality, "radio", "radio_lost", "radio"),
         )
         self._radio = self._make_radio(stations)
+        self._world.radio = self._radio
         self._radio.start()
         self._pace_control = PaceControl(context, self._seats, self._radio, bus)
         if setup.seats:

@@ -20,6 +20,7 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
 from airhilt.seats import Seats
+from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sim import Priority
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, seconds_to_ns
@@ -68,6 +69,8 @@ class WorldLoop:
         self._publish = context.router.publish
         self._seats = seats
         self._triggers = Triggers()
+        self.radio: RadioConversation | None = None
+        """Radio on which actors say why they cannot do what they were told; None: there is none."""
         self.affected: set[str] = set()
         self.uncleared: set[str] = set()
         self.begun_lines: set[str] = set()
@@ -145,7 +148,13 @@ class WorldLoop:
         """Let an actor do what a radio line or its plan says, and publish that it does."""
         if self._actors[callsign].body.ended is None:
             self._context.event("command", callsign, command.model_dump_json(exclude_none=True))
-            self.obey(callsign, command)
+            why = self.obey(callsign, command)
+            if why is not None:
+                self._say_unable(callsign, why)
+
+    def refusal(self, callsign: str, command: Command) -> str | None:
+        """Return why an actor cannot carry out a command now, as it says it; None: it can."""
+        return self._actors[callsign].refusal(command)
 
     def no_response(self, callsign: str, text: str) -> None:
         """Publish that an actor does not do what it was told."""
@@ -160,20 +169,25 @@ class WorldLoop:
                 given = ActorCommand(t_ns=t_ns, command=command)
                 self._publish(f"command/{key.split('/')[1]}", given)
 
-    def obey(self, callsign: str, command: Command) -> None:
-        """Let an actor carry out a command, or say that it cannot.
+    def _say_unable(self, callsign: str, why: str) -> None:
+        if self.radio is not None:
+            self.radio.say_unable(callsign, why)
+
+    def obey(self, callsign: str, command: Command) -> str | None:
+        """Let an actor carry out a command; return why it cannot, or None.
 
         Nothing happens if there is no such actor, or if it has left the run.
         """
         actor = self._actors.get(callsign)
         if actor is None or actor.body.ended is not None:
-            return
+            return None
         try:
             actor.command(command)
         except Unable as unable:
             self._context.event("unable", callsign, str(unable))
-        else:
-            self._seats.end_offer(callsign, command)
+            return str(unable)
+        self._seats.end_offer(callsign, command)
+        return None
 
     def line_begun(self, line: str) -> None:
         """Take in that a radio line begins now: it may be what begins the conflict."""
@@ -232,6 +246,7 @@ class WorldLoop:
                     actor.attend()
                 except Unable as unable:
                     self._context.event("unable", actor.spec.callsign, str(unable))
+                    self._say_unable(actor.spec.callsign, str(unable))
         self._triggers.evaluate(now_ns)
         self._begin_if_due()
         self._move_window()

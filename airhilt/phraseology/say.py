@@ -128,11 +128,16 @@ def speak_ra_report(callsign: str, style: Style, *, is_over: bool) -> str:
 
 
 def speak_readback(
-    callsign: str, instructions: Instruction | Sequence[Instruction], style: Style
+    callsign: str, instructions: Instruction | Sequence[Instruction | str], style: Style
 ) -> str:
-    """Return the readback of instructions, or "roger" if there are none."""
+    """Return the readback of instructions, or "roger" if there are none.
+
+    Words among the instructions are said as they are.
+    """
     several = (instructions,) if isinstance(instructions, Instruction) else instructions
-    parts = [phrase_of(each, style, readback=True) for each in several] or ["roger"]
+    parts = [
+        each if isinstance(each, str) else phrase_of(each, style, readback=True) for each in several
+    ] or ["roger"]
     return _sentence(*parts, speak_callsign(callsign, style))
 
 

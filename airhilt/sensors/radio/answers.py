@@ -17,9 +17,36 @@ class Answers:
         self._stations = context.stations
         self._style = context.radio.phraseology
 
-    def readback(self, callsign: str, instructions: Sequence[Instruction]) -> str:
-        """Return the readback of some instructions."""
-        return speak_readback(callsign, instructions, self._style)
+    def readback(
+        self, callsign: str, instructions: Sequence[Instruction], unable: Sequence[str] = ()
+    ) -> str:
+        """Return what an actor answers to instructions: it reads back or tells, or is unable."""
+        told = [self._told(callsign, each) for each in instructions]
+        return speak_readback(callsign, [*told, *unable], self._style)
+
+    def _told(self, callsign: str, instruction: Instruction) -> Instruction | str:
+        """Return an instruction, or the words that answer one to say something."""
+        if instruction.action != "say":
+            return instruction
+        asked = instruction.position or ""
+        return self._stations.report_of(callsign, asked, self._style) or f"unable to say {asked}"
+
+    def hail(self, called: str, caller: str) -> str:
+        """Return what who is called answers to who calls without more words."""
+        names = [self._name(caller), self._name(called)]
+        return f"{', '.join(names)}, go ahead."
+
+    def to_unit(self, callsign: str, unit: str, text: str = "") -> str:
+        """Return a call of an actor to a unit."""
+        parts = [unit, speak_callsign(callsign, self._style), *([text] if text else [])]
+        return f"{', '.join(parts)}."
+
+    def callsign(self, callsign: str) -> str:
+        """Return the callsign of an actor as a call of its own."""
+        return f"{speak_callsign(callsign, self._style)}."
+
+    def _name(self, name: str) -> str:
+        return speak_callsign(name, self._style) if self._stations.is_actor(name) else name
 
     def readback_of(self, call: RadioCall, text: str, callsign: str) -> str:
         """Return the readback of the words of a call."""

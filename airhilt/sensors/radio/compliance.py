@@ -1,46 +1,137 @@
-"""Compliance: actors carry out the calls that they have taken; people choose if they do.
+"""Compliance: what actors decide to do of a call that they have taken, and do in time.
 
-An ordinary instruction is always obeyed. Whether and when an urgent one is, one that a controller
-gives because of an advisory, is drawn from the response model.
+An ordinary instruction is obeyed unless it cannot be. Whether and when an urgent one is, one that a
+controller gives because of an advisory, is drawn from the response model.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
+from typing import NamedTuple
 
-from airhilt.commands import Command
+from airhilt.commands import Command, ContactCommand
+from airhilt.messages import Event
+from airhilt.phraseology import Call, Instruction
 from airhilt.scenario.models import ScriptedCommand
+from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
-from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.radio_call import RadioCall, Speakers
+from airhilt.world.actors.orders import subject_of
 from airhilt.world.actors.reactions import reaction_models
 
 COMPLY_AFTER_S = 2.0
 """Time in s from taking a call to doing what was understood, where that is not what was said. The
 same as the default of scripted commands."""
+TUNING_S = 4.0
+"""Time in s from leaving a frequency to the first call on the next one: an assumption."""
+FORESEEN_S = 5.0
+"""Time in s for which a crew foresees if it can do what the script has for it: an assumption."""
+
+
+class Decision(NamedTuple):
+    """Decision of an actor about a call that it has taken."""
+
+    commands: tuple[ScriptedCommand, ...] = ()
+    """What it does."""
+    accepted: tuple[Instruction, ...] = ()
+    """What it reads back."""
+    unable: tuple[str, ...] = ()
+    """What it says about the rest: why it cannot do it, or what it asks before it can."""
 
 
 class Compliance:
-    """Lets actors do what calls make them do."""
+    """Lets actors do what calls make them do.
 
-    def __init__(self, context: RadioContext) -> None:
+    A later call about the same subject replaces what an actor has not done yet of earlier ones.
+    """
+
+    def __init__(self, context: RadioContext, speakers: Speakers) -> None:
+        self._context = context
+        self._speakers = speakers
+        self._answers = Answers(context)
         self._director = context.director
         self._world = context.world
         self._seats = context.seats
+        self._stations = context.stations
         self._reactions = reaction_models(context.scenario, context.seed)
         self._undone: set[tuple[str, str]] = set()
         """Calls, and actors, of which was told that there is no response."""
+        self._latest: dict[tuple[str, str], RadioCall] = {}
+        """The last call about each subject to each actor."""
+
+    # --- deciding ---------------------------------------------------------------------------
+
+    def decide(self, call: RadioCall, actor: str, taken: Call, *, as_said: bool) -> Decision:
+        """Return what an actor decides to do of a call, whose words it has taken as a meaning.
+
+        What the script plans for its words is done; of other words, what they order.
+        """
+        planned = tuple(one for one in call.meant if one.actor == actor)
+        if as_said and (planned or (call.scripted is not None and not call.is_of_person)):
+            return self._planned(planned, taken, actor)
+        return self._ordered(call, taken, actor)
+
+    def _planned(self, planned: tuple[ScriptedCommand, ...], taken: Call, actor: str) -> Decision:
+        soon = (one for one in planned if one.when is None and one.delay_s <= FORESEEN_S)
+        first = next(soon, None)
+        why = None if first is None else self._refusal(actor, first.command)
+        if why is not None:
+            return self._told(actor, Decision(unable=(why,)))
+        return Decision(planned, taken.instructions)
+
+    def _ordered(self, call: RadioCall, taken: Call, actor: str) -> Decision:
+        listener = self._stations.listener(call.frequency_khz)
+        orders = listener.orders_of(taken.instructions, self._stations.bound_runway(actor))
+        commands: dict[Command, None] = {}
+        accepted, unable = [], []
+        refused: dict[str, str | None] = {}
+        """Why the first order about each subject cannot be done; None if it can."""
+        for order in orders:
+            why = order.unable or order.question or None
+            if why is None and order.command is not None:
+                subject = subject_of(order.command)
+                if subject not in refused:
+                    refused[subject] = self._refusal(actor, order.command)
+                why = refused[subject]
+            if why is not None:
+                unable.append(why)
+                continue
+            accepted.append(order.instruction)
+            if order.command is not None:
+                commands[order.command] = None
+        scripted = tuple(
+            ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S)
+            for command in commands
+        )
+        decision = Decision(scripted, tuple(accepted), tuple(dict.fromkeys(unable)))
+        return self._told(actor, decision)
+
+    def _refusal(self, actor: str, command: Command) -> str | None:
+        """Return why an actor cannot carry out a command now; a person decides without us."""
+        if self._seats.has_person(actor):
+            return None
+        if isinstance(command, ContactCommand):
+            return self._stations.unknown(command.unit, command.frequency_khz)
+        return self._world.refusal(actor, command)
+
+    def _told(self, actor: str, decision: Decision) -> Decision:
+        """Publish what an actor refuses, and return the decision."""
+        for text in decision.unable:
+            now_ns = self._director.now_ns
+            event = Event(t_ns=now_ns, kind="unable", subject=actor, text=text)
+            self._context.publish("truth/event", event)
+        return decision
+
+    # --- doing ------------------------------------------------------------------------------
 
     def carry_out(self, call: RadioCall, actor: str) -> None:
-        """Let an actor do what the script has for it in a call."""
-        for scripted in call.meant:
-            if scripted.actor == actor:
-                self._do_later(call, scripted)
+        """Let the speaker of a call do what the script has for it in the call."""
+        self.comply(call, actor, tuple(one for one in call.meant if one.actor == actor))
 
-    def comply(self, call: RadioCall, actor: str, commands: Iterable[Command]) -> None:
-        """Let an actor do what it has understood."""
-        for command in commands:
-            scripted = ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S)
+    def comply(self, call: RadioCall, actor: str, commands: tuple[ScriptedCommand, ...]) -> None:
+        """Let an actor do what it has decided to do of a call."""
+        for scripted in commands:
+            self._latest[actor, subject_of(scripted.command)] = call
             self._do_later(call, scripted)
 
     def _offer(self, actor: str, call: str, command: Command) -> bool:
@@ -69,10 +160,31 @@ class Compliance:
             does = scripted.command.action.replace("_", " ")
             self._world.no_response(scripted.actor, f"does not respond to {does} ({call.id})")
 
+    def _change_frequency(self, call: RadioCall, actor: str, command: ContactCommand) -> None:
+        """Let an actor leave its frequency, and call the unit on another one."""
+        frequency_khz = self._stations.tune(actor, command.unit, command.frequency_khz)
+        event = Event(
+            t_ns=self._director.now_ns,
+            kind="command",
+            subject=actor,
+            text=command.model_dump_json(exclude_none=True),
+        )
+        self._context.publish("truth/event", event)
+        unit = self._stations.unit_on(frequency_khz)
+        if command.calls:
+            text = self._answers.to_unit(actor, unit or (command.unit or "station").title())
+            hail = RadioCall(f"{call.id}.contact", frequency_khz, actor, unit, text)
+            self._speakers.say_later(hail, TUNING_S)
+
     def _do_on_condition(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         def act() -> None:
             actor, command = scripted.actor, scripted.command
-            if actor not in call.withdrawn_for and not self._offer(actor, call.id, command):
+            is_latest = self._latest[actor, subject_of(command)] is call
+            if actor in call.withdrawn_for or not is_latest:
+                return
+            if isinstance(command, ContactCommand):
+                self._change_frequency(call, actor, command)
+            elif not self._offer(actor, call.id, command):
                 self._world.do(actor, command)
 
         if scripted.when is None:

@@ -33,6 +33,9 @@ class RadioWorld(Protocol):
     def do(self, callsign: str, command: Command) -> None:
         """Let an actor carry out a command."""
 
+    def refusal(self, callsign: str, command: Command) -> str | None:
+        """Return why an actor cannot carry out a command now, as it says it; None: it can."""
+
     def no_response(self, callsign: str, text: str) -> None:
         """Take in that an actor does not do what an urgent call says."""
 

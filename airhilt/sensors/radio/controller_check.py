@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from airhilt.scenario.models import RadioLine, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
-from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
 from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
@@ -46,7 +45,7 @@ class ControllerCheck:
         readback.withdrawn_for.add(crew)
         words = self._answers.again(crew, unit, right.text, is_correction=True)
         correction = readback.reply("correction", unit, words)
-        correction.commands = self._commands_of_correction(readback, right)
+        correction.commands = self._planned(readback, right)
         if scripted is None:
             text = self._answers.readback_of(readback, right.text, crew)
         else:
@@ -54,18 +53,9 @@ class ControllerCheck:
         correction.answer = correction.reply("readback", crew, text, is_repeated=False)
         return correction
 
-    def _commands_of_correction(
-        self, readback: RadioCall, right: RadioLine
-    ) -> tuple[ScriptedCommand, ...]:
-        """Return what a correction makes a crew do: its commands in the script, or its words."""
-        crew, listens = readback.speaker, self._stations.listener(readback.frequency_khz)
+    @staticmethod
+    def _planned(readback: RadioCall, right: RadioLine) -> tuple[ScriptedCommand, ...]:
+        """Return what the script makes a crew do that has understood rightly."""
         lines = [right] if readback.scripted is None else [right, readback.scripted.declared]
-        in_script = tuple(
-            command for line in lines for command in line.commands if command.actor == crew
-        )
-        meant = listens.parse(right.text).instructions
-        return in_script or tuple(
-            ScriptedCommand(actor=crew, command=order.command, delay_s=COMPLY_AFTER_S)
-            for order in listens.orders_of(meant, self._stations.bound_runway(crew))
-            if order.command is not None
-        )
+        of_crew = (one for line in lines for one in line.commands if one.actor == readback.speaker)
+        return tuple(of_crew)

@@ -22,9 +22,11 @@ from airhilt.messages import (
     SeatAct,
     SeatAction,
     Transcript,
+    key_chunk,
 )
 from airhilt.scenario.models import RadioLine
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
+from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.context import RadioContext
@@ -36,8 +38,8 @@ from airhilt.sensors.radio.microphones import Microphones
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.person_calls import PersonCalls, RecognisedCall
 from airhilt.sensors.radio.ra_reports import RaReports
-from airhilt.sensors.radio.radio_call import Speakers, calls_of
-from airhilt.sensors.radio.readback_policy import ReadbackPolicy
+from airhilt.sensors.radio.radio_call import RadioCall, Speakers, calls_of
+from airhilt.sensors.radio.readback_policy import ANSWER_AFTER_S, ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
 from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim.payload import Payload
@@ -74,7 +76,10 @@ class RadioConversation:
         self._speakers = Speakers(context, arbiter)
         self._person_calls = PersonCalls(context, self._speakers.said)
         self._microphones = Microphones(context.director, arbiter, context.seats)
-        self._compliance = Compliance(context)
+        self._answers = Answers(context)
+        self._unables = 0
+        """Number of calls about what an actor cannot do any more."""
+        self._compliance = Compliance(context, self._speakers)
         policy = ReadbackPolicy(context, self._calls, self._speakers)
         hearing = hearing or HearingModel(context.seed)
         self._confirmations = Confirmations(context, self._speakers, policy)
@@ -165,6 +170,16 @@ class RadioConversation:
             self._compliance.carry_out(call, call.speaker)
         else:
             self._speakers.say(call)
+
+    def say_unable(self, callsign: str, why: str) -> None:
+        """Let an actor tell the unit that it is with what it cannot do any more, and why."""
+        contact = self._controllers.contact(callsign)
+        if contact is not None:
+            self._unables += 1
+            name = f"unable.{key_chunk(callsign)}.{self._unables}"
+            text = self._answers.to_unit(callsign, contact.unit, why)
+            call = RadioCall(name, contact.frequency_khz, callsign, contact.unit, text)
+            self._speakers.say_later(call, ANSWER_AFTER_S)
 
     # --- what comes of it -------------------------------------------------------------------
 

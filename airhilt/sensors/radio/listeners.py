@@ -7,7 +7,7 @@ from functools import partial
 from typing import Literal
 
 from airhilt.messages import HearingTruth, Transcript
-from airhilt.sensors.radio.compliance import Compliance
+from airhilt.sensors.radio.compliance import Compliance, Decision
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.hearing import HearingModel, Outcome, hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
@@ -94,6 +94,7 @@ class Listeners:
         """Return whether a call comes to a recipient, who then may hear it well or not."""
         return (
             listener not in call.deaf
+            and self._stations.is_on(listener, on_air.utterance.frequency_khz)
             and self._transmissions.reaches(on_air, listener)
             and self._seats.listens(listener, on_air.utterance.frequency_khz)
         )
@@ -163,12 +164,11 @@ class Listeners:
         """Let a crew read a call for somebody else, which it may take for its own."""
         if not text or self._stations.is_actor(said.speaker):
             return
-        understanding = self._listener(call).overhear(
-            text, said.text, listener, self._stations.bound_runway(listener), confidences
-        )
-        if understanding.kind == "otherwise":
+        understanding = self._listener(call).overhear(text, said.text, listener, confidences)
+        if understanding.kind == "otherwise" and understanding.call is not None:
             self._publish_truth(said, listener, understanding, text, source="transcript")
-            self._compliance.comply(call, listener, understanding.commands)
+            decision = self._compliance.decide(call, listener, understanding.call, as_said=False)
+            self._compliance.comply(call, listener, decision.commands)
 
     # --- spoken by a person -----------------------------------------------------------------
 
@@ -202,9 +202,7 @@ class Listeners:
         if not stations.is_actor(listener):
             names = [call.speaker]
         known_by = tuple(name for name in names if stations.is_actor(name))
-        return self._listener(call).understand(
-            heard, said.text, known_by, stations.bound_runway(listener), confidences
-        )
+        return self._listener(call).understand(heard, said.text, known_by, confidences)
 
     def _listener(self, call: RadioCall) -> Listener:
         return self._stations.listener(call.frequency_khz)
@@ -221,11 +219,13 @@ class Listeners:
         self._publish_truth(said, listener, understanding, text, source)
         if text and not self._stations.is_actor(listener):
             self._heard_by_unit(call, listener, text)
-        if understanding.kind == "as_said":
-            self._compliance.carry_out(call, listener)
-        elif understanding.kind == "otherwise" and self._stations.is_actor(listener):
-            self._compliance.comply(call, listener, understanding.commands)
-        self._policy.follow_up(call, said, listener, understanding)
+        decision = Decision()
+        kind = understanding.kind
+        if kind in ("as_said", "otherwise") and self._stations.is_actor(listener):
+            taken = understanding.call or self._listener(call).parse(said.text)
+            decision = self._compliance.decide(call, listener, taken, as_said=kind == "as_said")
+            self._compliance.comply(call, listener, decision.commands)
+        self._policy.follow_up(call, said, listener, understanding, decision)
 
     def _publish_truth(
         self,

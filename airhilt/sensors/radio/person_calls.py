@@ -15,6 +15,9 @@ from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.world.actors.listening import mean_the_same
 
+NOBODY_THERE = "Nobody answers: no callsign on the frequency is in the call."
+"""Notice to a person at a unit whose call is to nobody."""
+
 
 class RecognisedCall(NamedTuple):
     """A call that a person spoke, as it was recognised."""
@@ -112,12 +115,12 @@ class PersonCalls:
         elif call.addressed is None:
             self._finish(call)
         call.is_of_person = True
-        if meant.kind == "say_again":
+        if meant.kind == "say_again" and "callsign" not in meant.text:
             call.asks_for = self._last_to(speaker, frequency_khz)
-        call.commands = self._commands(call, meant)
+        call.commands = self._planned(call, meant)
         call.text = text
-        if not call.commands and any(one.is_conditional for one in meant.instructions):
-            self._tell_of_condition(call)
+        if call.addressed is None and not self._stations.is_actor(speaker):
+            self._seats.notify(speaker, NOBODY_THERE)
         return call
 
     def _last_to(self, name: str, frequency_khz: int) -> RadioCall | None:
@@ -128,14 +131,6 @@ class PersonCalls:
             if (call.addressed, call.frequency_khz) == (name, frequency_khz)
         ]
         return calls[-1] if calls and not calls[-1].is_of_person else None
-
-    def _tell_of_condition(self, call: RadioCall) -> None:
-        """Tell the person at a unit that a conditional clearance alone makes nobody move."""
-        if call.addressed is not None and not self._stations.is_actor(call.speaker):
-            text = (
-                f"{call.addressed} reads a condition back and waits. Say it again when it is met."
-            )
-            self._seats.notify(call.speaker, text)
 
     def _unclear(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
         """Return a call of whose words nobody is sure, to whoever expects one.
@@ -178,23 +173,15 @@ class PersonCalls:
         on_frequency = self._stations.on(frequency_khz)
         return next((name for name in on_frequency if not self._stations.is_actor(name)), None)
 
-    def _commands(self, call: RadioCall, meant: Call) -> tuple[ScriptedCommand, ...]:
-        """Return what the addressee of a unit does because of the words.
+    def _planned(self, call: RadioCall, meant: Call) -> tuple[ScriptedCommand, ...]:
+        """Return what the script has planned for words that mean the same, such as a taxi route.
 
-        Words that mean what the script has planned do what it has planned, such as to taxi along a
-        route. What crews say gives no commands: the person at the seat flies.
+        What crews say gives no commands: the person at the seat flies.
         """
         if call.addressed is None or self._stations.is_actor(call.speaker):
             return ()
-        listener = self._stations.listener(call.frequency_khz)
         line = None if call.scripted is None else call.scripted.line
-        if line is not None and mean_the_same(
-            meant.instructions, listener.parse(line.text).instructions
-        ):
-            return line.commands
-        runway = self._stations.bound_runway(call.addressed)
-        return tuple(
-            ScriptedCommand(actor=call.addressed, command=order.command)
-            for order in listener.orders_of(meant.instructions, runway)
-            if order.command is not None
-        )
+        if line is None:
+            return ()
+        planned = self._stations.listener(call.frequency_khz).parse(line.text).instructions
+        return line.commands if mean_the_same(meant.instructions, planned) else ()

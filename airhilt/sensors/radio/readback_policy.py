@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from airhilt.sensors.radio.answers import Answers
+from airhilt.sensors.radio.compliance import Decision
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.controller_check import ControllerCheck
 from airhilt.sensors.radio.on_air import Utterance
@@ -12,6 +14,8 @@ from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sim.streams import stream
 from airhilt.world.actors.listening import Understanding
 
+CALLSIGN = re.compile(r"\b(?:callsign|call sign)\b")
+"""Words of a question for the callsign."""
 ANSWER_AFTER_S = 1.0
 """Time in s from the end of a call to an answer that is not in the script: an estimate."""
 REPEAT_AFTER_S = 6.0
@@ -38,15 +42,17 @@ class ReadbackPolicy:
         self._check = ControllerCheck(context.stations, self._answers)
 
     def follow_up(
-        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
+        self,
+        call: RadioCall,
+        said: Utterance,
+        listener: str,
+        understanding: Understanding,
+        decision: Decision,
     ) -> None:
         """Let a recipient of a call answer it as it was understood, or its speaker repeat it."""
         match understanding.kind:
-            case "as_said":
-                self._taken(call, said, listener, understanding)
-            case "otherwise":
-                self._change_readback(call, listener, understanding)
-                self._taken(call, said, listener, understanding)
+            case "as_said" | "otherwise":
+                self._taken(call, said, listener, understanding, decision)
             case "unclear" if listener == call.addressed:
                 self._ask_again(call, listener)
             case "not_for_me" if listener == call.addressed:
@@ -62,12 +68,20 @@ class ReadbackPolicy:
     # --- reading back -----------------------------------------------------------------------
 
     def _taken(
-        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
+        self,
+        call: RadioCall,
+        said: Utterance,
+        listener: str,
+        understanding: Understanding,
+        decision: Decision,
     ) -> None:
         """Go on with what follows from a call once a recipient has taken it."""
+        is_changed = bool(decision.unable) or understanding.kind == "otherwise"
+        if self._stations.is_actor(listener) and is_changed:
+            self._answer_otherwise(call, listener, decision)
+        elif self._reads_back(call):
+            self._read_back(call, said, listener, understanding, decision)
         call.take(listener)
-        if self._radio.readbacks == "generated" or call.scripted is None or call.is_of_person:
-            self._read_back(call, said, listener, understanding)
         if listener != call.addressed:
             return
         if call.asks_for is not None:
@@ -81,34 +95,43 @@ class ReadbackPolicy:
             elif correction is not None:
                 self._answer(correction)
 
-    def _read_back(
-        self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
-    ) -> None:
-        """Let an actor read back an instruction of a unit that no line of the script reads back."""
-        if (
-            call.in_reply_to is not None
-            or not self._stations.is_actor(listener)
-            or self._stations.is_actor(call.speaker)
-            or self.readback_in_script(call, listener) is not None
-        ):
-            return
-        listens = self._stations.listener(call.frequency_khz)
-        parsed = understanding.call or listens.parse(said.text)
-        if parsed.instructions:
-            text = self._answers.readback(listener, parsed.instructions)
+    def _answer_otherwise(self, call: RadioCall, listener: str, decision: Decision) -> None:
+        """Let an actor answer what it has decided, in place of what was planned."""
+        text = self._answers.readback(listener, decision.accepted, decision.unable)
+        planned = self.readback_in_script(call, listener) or call.answer
+        if planned is not None:
+            planned.text, planned.commands = text, ()
+        elif decision.unable or self._reads_back(call):
             is_repeated = self._radio.controller_checks_readbacks
             self._answer(call.reply("readback", listener, text, is_repeated=is_repeated))
 
-    def _change_readback(
-        self, call: RadioCall, listener: str, understanding: Understanding
+    def _reads_back(self, call: RadioCall) -> bool:
+        """Return whether a call is read back that the script does not read back."""
+        return self._radio.readbacks == "generated" or call.scripted is None or call.is_of_person
+
+    def _read_back(
+        self,
+        call: RadioCall,
+        said: Utterance,
+        listener: str,
+        understanding: Understanding,
+        decision: Decision,
     ) -> None:
-        """Let an actor read back what it has understood, not what the script has."""
-        if not self._stations.is_actor(listener):
+        """Let somebody answer a call that no line of the script answers."""
+        if call.in_reply_to is not None or self.readback_in_script(call, listener) is not None:
             return
-        readback = self.readback_in_script(call, listener)
-        if readback is not None and understanding.call is not None:
-            readback.text = self._answers.readback(listener, understanding.call.instructions)
-            readback.commands = ()
+        taken = understanding.call or self._stations.listener(call.frequency_khz).parse(said.text)
+        is_to_crew = self._stations.is_actor(listener) and not self._stations.is_actor(call.speaker)
+        if taken.kind == "hail":
+            text = self._answers.hail(listener, call.speaker)
+        elif is_to_crew and taken.asks_again and CALLSIGN.search(taken.text):
+            text = self._answers.callsign(listener)
+        elif is_to_crew and decision.accepted:
+            text = self._answers.readback(listener, decision.accepted)
+        else:
+            return
+        is_repeated = self._radio.controller_checks_readbacks and taken.kind != "hail"
+        self._answer(call.reply("readback", listener, text, is_repeated=is_repeated))
 
     def readback_in_script(self, call: RadioCall, speaker: str) -> RadioCall | None:
         """Return the line in which somebody reads a call back, None if there is none."""

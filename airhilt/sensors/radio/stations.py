@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
+from airhilt.geodesy.wgs84 import distance_and_azimuth
+from airhilt.phraseology.numbers import Style
+from airhilt.phraseology.say import speak_altitude, speak_heading, speak_runway, speak_speed
 from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.on_air import BackgroundNoise
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
-from airhilt.units import DEGREE, FOOT
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Actor
 from airhilt.world.actors.listening import Listener
 from airhilt.world.site import FixedSite, ScenarioSite
 
+COMPASS = (
+    "north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest",
+)  # fmt: skip
+"""Points of the compass, from north clockwise."""
 GROUND_ANTENNA_M = 50.0 * FOOT
 """Height of the units' antenna in m, the same as that of an ADS-B receiver by default."""
 
@@ -31,6 +39,7 @@ class Stations:
         self.variation_deg = site.variation_deg or 0.0
         """Magnetic variation of the place, in degrees, positive east."""
         centre = site.centre
+        self._site_place = (centre.lat_deg * DEGREE, centre.lon_deg * DEGREE)
         self._site = FixedSite(
             centre.lat_deg * DEGREE,
             centre.lon_deg * DEGREE,
@@ -52,6 +61,38 @@ class Stations:
     def on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the names of the actors and units on a frequency."""
         return tuple(self._on.get(frequency_khz, ()))
+
+    def is_on(self, name: str, frequency_khz: int) -> bool:
+        """Return whether an actor or a unit is on a frequency."""
+        return name in self._on.get(frequency_khz, ())
+
+    def unit_on(self, frequency_khz: int) -> str | None:
+        """Return the unit on a frequency, None if there is none."""
+        return next((name for name in self.on(frequency_khz) if name not in self._actors), None)
+
+    def unknown(self, unit: str | None, frequency_khz: int | None) -> str | None:
+        """Return what an actor asks that does not know the frequency of a unit; None if it does."""
+        return "say frequency" if self._frequency(unit, frequency_khz) is None else None
+
+    def tune(self, actor: str, unit: str | None, frequency_khz: int | None) -> int:
+        """Take an actor from its frequencies to that of a unit, or a given one; return that."""
+        chosen_khz = self._frequency(unit, frequency_khz)
+        assert chosen_khz is not None  # It was asked for before.
+        for names in self._on.values():
+            names.pop(actor, None)
+        self._on.setdefault(chosen_khz, {})[actor] = None
+        return chosen_khz
+
+    def _frequency(self, unit: str | None, frequency_khz: int | None) -> int | None:
+        """Return a given frequency, or that of a unit that is named by words of its name."""
+        if frequency_khz is not None or unit is None:
+            return frequency_khz
+        words = set(unit.casefold().split())
+        for khz, names in self._on.items():
+            units = (name for name in names if name not in self._actors)
+            if any(words <= set(name.casefold().split()) for name in units):
+                return khz
+        return None
 
     def listener(self, frequency_khz: int) -> Listener:
         """Return who understands the calls on a frequency, with the callsigns there."""
@@ -94,6 +135,29 @@ class Stations:
     def is_crew(self, name: str) -> bool:
         """Return whether a name is that of an aircraft."""
         return name in self._actors and self._actors[name].category == "aircraft"
+
+    def report_of(self, callsign: str, asked: str, style: Style) -> str | None:
+        """Return what an actor says when it is asked for its altitude, heading or the like."""
+        state, runway = self._actors[callsign].body.state, self.bound_runway(callsign)
+        match asked.split():
+            case [*_, "altitude" | "level" | "height"]:
+                return speak_altitude(round(state.altitude_m / FOOT, -2), style)
+            case [*_, "heading" | "track"]:
+                degrees = math.degrees(
+                    math.atan2(state.velocity_east_m_s, state.velocity_north_m_s)
+                )
+                return f"heading {speak_heading((degrees - self.variation_deg) % 360.0, style)}"
+            case [*_, "speed" | "airspeed"]:
+                return speak_speed(round(state.ground_speed_m_s / KNOT), style)
+            case [*_, "position"]:
+                here = (state.latitude_rad, state.longitude_rad)
+                distance_m, bearing_rad = distance_and_azimuth(self._site_place, here)
+                miles = round(distance_m / NAUTICAL_MILE)
+                way = COMPASS[round(bearing_rad / (math.pi / 4.0)) % 8]
+                return f"{miles} miles {way} of the field" if miles else "at the field"
+            case [*_, "intentions"] if runway is not None:
+                return f"runway {speak_runway(runway, style)}"
+        return None
 
     def background_of(self, name: str) -> BackgroundNoise:
         """Return the noise around the microphone of an actor or a unit."""

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from airhilt.commands import Command
 from airhilt.phraseology import TAU_ASR, Call, Instruction, agree, parse_call
 from airhilt.world.actors.orders import Order, orders_of
 
@@ -19,8 +18,6 @@ class Understanding:
     kind: Literal["as_said", "otherwise", "unclear", "not_for_me"]
     call: Call | None = None
     """Call as it was heard; None where it did not have to be parsed."""
-    commands: tuple[Command, ...] = ()
-    """Commands of a call that was heard otherwise than it was said."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +43,6 @@ class Listener:
         heard: str,
         said: str,
         known_by: tuple[str, ...],
-        bound_runway: str | None = None,
         word_confidences: Sequence[float] | None = None,
     ) -> Understanding:
         """Return the understanding of a call by its addressee.
@@ -55,8 +51,7 @@ class Listener:
         transcript does not know what was said, and goes by the confidence of each word.
 
         The callsigns ``known_by``, its own or the caller's, show the listener that the call is
-        addressed; without any it takes it as addressed. A call that names no runway is on the one
-        that the listener is going to use.
+        addressed; without any it takes it as addressed.
         """
         is_the_same = words(heard) == words(said)
         if is_the_same and word_confidences is None:
@@ -73,32 +68,26 @@ class Listener:
             return Understanding("as_said", taken)
         if not taken.instructions:
             return Understanding("unclear", taken)
-        return Understanding("otherwise", taken, self._commands(taken, bound_runway))
+        return Understanding("otherwise", taken)
 
     def overhear(
         self,
         heard: str,
         said: str,
         callsign: str,
-        bound_runway: str | None = None,
         word_confidences: Sequence[float] | None = None,
     ) -> Understanding:
         """Return the understanding of a call by somebody else than its addressee."""
         if words(heard) == words(said):
             return Understanding("not_for_me")
         taken = self.parse(heard, word_confidences)
-        commands = self._commands(taken, bound_runway)
         is_mine = self._is_not_for(taken, (callsign,)) is None and taken.kind in (
             "instruction",
             "correction",
         )
-        if not is_mine or not commands or taken.confidence < TAU_ASR:
+        if not is_mine or not taken.instructions or taken.confidence < TAU_ASR:
             return Understanding("not_for_me", taken)
-        return Understanding("otherwise", taken, commands)
-
-    def _commands(self, call: Call, bound_runway: str | None) -> tuple[Command, ...]:
-        orders = self.orders_of(call.instructions, bound_runway)
-        return tuple(dict.fromkeys(each.command for each in orders if each.command is not None))
+        return Understanding("otherwise", taken)
 
     def differs(self, read_back: str, said: str) -> bool:
         """Return whether a readback contradicts the call; a shorter readback does not."""

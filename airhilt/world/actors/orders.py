@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, cast, get_args
+from typing import Literal, NamedTuple, cast, get_args
 
 import pydantic
+from pydantic import BaseModel
 
 from airhilt.commands import (
     AltitudeCommand,
@@ -21,6 +22,8 @@ from airhilt.commands import (
     ContinueCommand,
     CrossCommand,
     DirectCommand,
+    DriftDownCommand,
+    EmergencyDescentCommand,
     EnterCommand,
     ExtendCommand,
     FollowCommand,
@@ -36,6 +39,7 @@ from airhilt.commands import (
     PushBackCommand,
     ResumeRouteCommand,
     ReturnToFieldCommand,
+    RouteCommand,
     ShortApproachCommand,
     SideStepCommand,
     SpeedCommand,
@@ -48,7 +52,7 @@ from airhilt.commands import (
 from airhilt.phraseology import Action, Instruction
 
 NOTHING_MOVES: frozenset[Action] = frozenset(
-    {"squawk", "ident", "report", "say", "stand_by", "monitor", "continue_approach", "start_up",
+    {"squawk", "ident", "report", "say", "stand_by", "continue_approach", "start_up",
      "expedite", "visual_separation", "no_speed_restrictions", "wildlife", "wildlife_gone"}
 )  # fmt: skip
 """Actions after which nobody moves: what they ask for is done by reading them back, or by what the
@@ -67,6 +71,24 @@ DOES: Mapping[str, frozenset[str]] = {
     "departing": frozenset({"departing", "departure", "takeoff"}),
 }
 """What other traffic does when it passes, and the words for it."""
+
+
+Subject = Literal["level", "speed", "track", "approach", "radio", "surface"]
+_ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
+    "level": (AltitudeCommand, DriftDownCommand, EmergencyDescentCommand),
+    "speed": (SpeedCommand,),
+    "track": (
+        TrackCommand, TurnCommand, RouteCommand, ResumeRouteCommand, DirectCommand, OrbitCommand,
+        HoldAtCommand,
+    ),
+    "approach": (
+        LandCommand, GoAroundCommand, ApproachCommand, SideStepCommand, JoinCommand, ExtendCommand,
+        ShortApproachCommand, ReturnToFieldCommand,
+    ),
+    "radio": (ContactCommand,),
+}  # fmt: skip
+"""Commands in the air and on the radio, by what they are about; all others are about movement on
+the surface."""
 
 
 class NotUnderstood(Exception):
@@ -289,11 +311,19 @@ def _command(
         case "push_back":
             return PushBackCommand(action="push_back")
         # On the radio.
-        case "contact":
+        case "contact" | "monitor":
             return ContactCommand(
-                action="contact", unit=place, frequency_khz=instruction.frequency_khz
+                action="contact",
+                unit=place,
+                frequency_khz=instruction.frequency_khz,
+                calls=instruction.action == "contact",
             )
     return None
+
+
+def subject_of(command: Command) -> Subject:
+    """Return what a command is about: a later one about the same replaces it."""
+    return next((name for name, about in _ABOUT.items() if isinstance(command, about)), "surface")
 
 
 def _leg(words: str | None) -> CircuitLeg:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import partial
-
 from airhilt.phraseology import Instruction
 from airhilt.phraseology.say import speak_instruction
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.models import ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
-from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.controllers.displays import Displays
 from airhilt.sensors.radio.controllers.measures import Measure, Repetition
@@ -54,32 +50,10 @@ class ControllerCalls:
             if measure.call.scripted is None:
                 said = speak_instruction(callsign, instructions, self._context.radio.phraseology)
             text = self._answers.again(callsign, unit, said, is_correction=is_correction)
-        commands = tuple(self._commands(callsign, measure, frequency_khz, instructions))
-        call = RadioCall(name, frequency_khz, unit, callsign, text, commands)
-        call.once_taken_by(callsign, partial(self._supersede, callsign, call))
-        return call
-
-    def _commands(
-        self,
-        callsign: str,
-        measure: Measure | Repetition,
-        frequency_khz: int,
-        instructions: tuple[Instruction, ...],
-    ) -> Iterator[ScriptedCommand]:
-        """Yield what the words of a call make its addressee do.
-
-        Words of the script that are said again do what the script has for them.
-        """
+        planned: tuple[ScriptedCommand, ...] = ()
         if isinstance(measure, Repetition):
-            planned = [one for one in self._planned(measure.call) if one.actor == callsign]
-            if planned:
-                yield from planned
-                return
-        listener = self._stations.listener(frequency_khz)
-        runway = self._stations.bound_runway(callsign)
-        for order in listener.orders_of(instructions, runway):
-            if order.command is not None:
-                yield ScriptedCommand(actor=callsign, command=order.command, delay_s=COMPLY_AFTER_S)
+            planned = tuple(one for one in self._planned(measure.call) if one.actor == callsign)
+        return RadioCall(name, frequency_khz, unit, callsign, text, planned, is_urgent=True)
 
     def _planned(self, call: RadioCall) -> tuple[ScriptedCommand, ...]:
         """Return the commands of a scripted instruction and of a right readback in the script."""
@@ -94,9 +68,3 @@ class ControllerCalls:
             and not differs(line.declared.text, call.said)
         ]
         return sum((line.commands for line in lines), call.scripted.declared.commands)
-
-    def _supersede(self, callsign: str, call: RadioCall) -> None:
-        """Let an actor leave undone what calls before have told it and it has not done yet."""
-        for other in self._speakers.said.values():
-            if other is not call and callsign in (other.speaker, other.addressed):
-                other.withdrawn_for.add(callsign)
