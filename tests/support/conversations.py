@@ -135,6 +135,9 @@ class World:
         del condition
         self.director.at(self.director.now_ns, action, Priority.SCRIPT)
 
+    def refusal(self, callsign: str, command: Any) -> str | None:
+        return None
+
     def no_response(self, callsign: str, text: str) -> None:
         self.done.append((callsign, text, self.now_s))
 

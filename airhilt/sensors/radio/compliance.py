@@ -59,6 +59,9 @@ class Compliance:
         self._latest: dict[tuple[str, str], RadioCall] = {}
         """The last call about each subject to each actor."""
 
+        self._decided: dict[tuple[str, str], tuple[ScriptedCommand, ...]] = {}
+        """What actors have decided to do of calls, by the ids of the calls as they were first."""
+
     # --- deciding ---------------------------------------------------------------------------
 
     def decide(self, call: RadioCall, actor: str, taken: Call, *, as_said: bool) -> Decision:
@@ -129,7 +132,13 @@ class Compliance:
         self.comply(call, actor, tuple(one for one in call.meant if one.actor == actor))
 
     def comply(self, call: RadioCall, actor: str, commands: tuple[ScriptedCommand, ...]) -> None:
-        """Let an actor do what it has decided to do of a call."""
+        """Let an actor do what it has decided to do of a call, once if that is only confirmed."""
+        first = call.in_reply_to
+        if first is None or first.speaker != call.speaker:
+            first = call
+        if self._decided.get((first.id, actor)) == commands:
+            return
+        self._decided[first.id, actor] = commands
         for scripted in commands:
             self._latest[actor, subject_of(scripted.command)] = call
             self._do_later(call, scripted)

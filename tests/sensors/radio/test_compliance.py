@@ -8,9 +8,9 @@ from typing import Any, cast
 import pytest
 
 from airhilt.commands import TurnCommand
-from airhilt.scenario.models import Channels, ResponseModel, Responses
+from airhilt.scenario.models import Channels, ResponseModel, Responses, ScriptedCommand
 from airhilt.sensors.radio.compliance import COMPLY_AFTER_S, Compliance
-from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from conversations import World, radio_context
 
 AT_ONCE = Channels(assistant=Responses(median_s=1.0, sigma=0.0))
@@ -34,7 +34,8 @@ def done(crews: Channels, *, is_urgent: bool) -> list[tuple[Any, ...]]:
         director=world.director, world=world, seats=seats, scenario=scenario, seed=1
     )
     call = RadioCall("c-1", 119_100, "TWR", "AAL123", "", is_urgent=is_urgent)
-    Compliance(context).comply(call, "AAL123", [TURN, TURN])
+    turns = 2 * (ScriptedCommand(actor="AAL123", command=TURN),)
+    Compliance(context, cast(Speakers, None)).comply(call, "AAL123", turns)
     world.run()
     return cast(list[tuple[Any, ...]], world.done)
 

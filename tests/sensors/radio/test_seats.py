@@ -188,20 +188,10 @@ def test_who_comes_back_has_the_seat_again() -> None:
     assert len(world.cards()) == 1
 
 
-@pytest.mark.parametrize(
-    ("seat", "words", "is_told"),
-    [
-        (TOWER, "American 123, behind the landing traffic line up and wait runway one", True),
-        (TOWER, "American 123, line up and wait runway one", False),
-        (TOWER, "Somebody else, behind the landing traffic line up and wait runway one", False),
-        ("AAL123", "Behind the landing traffic, lining up runway one, American 123", False),
-    ],
-)
-def test_a_unit_is_told_that_a_condition_alone_makes_nobody_move(
-    seat: str, words: str, is_told: bool
-) -> None:
-    world = Seated(CLEARANCE, READBACK, seats=[seat]).says(2.0, seat, words).run_until(4.0)
-    assert any("a condition back and waits" in text for text in world.notices(seat)) is is_told
+def test_a_unit_that_calls_nobody_on_the_frequency_is_told_so() -> None:
+    world = Seated(CLEARANCE, READBACK, seats=[TOWER])
+    world.says(2.0, TOWER, "Speedbird one, line up and wait runway one").run_until(9.0)
+    assert any("Nobody answers" in text for text in world.notices(TOWER))
 
 
 def test_without_a_frequency_a_person_speaks_on_the_first_one_of_the_seat() -> None:
