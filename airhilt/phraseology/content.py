@@ -28,9 +28,6 @@ from airhilt.phraseology.words import Words
 
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
 """Details of an action."""
-_OR = re.compile(r" or (?:[0-9]|flight level|left|right)")
-_OR_INSIDE = re.compile(r"[0-9] or [0-9]")
-"""Two values of which one is meant."""
 _VIA = re.compile(r"(?<!\S)(?:climb|descend) via(?: [^\s|]+){0,4} ?$")
 _OF_PROCEDURE = re.compile(
     r"(?: (?!ahead|caution|contact|expect|monitor|on|report)[^\s|]+){0,5}"
@@ -115,10 +112,6 @@ def _is_doubtful(told: Instruction, text: str, clause: Clause) -> bool:
             return True
     if told.runway is not None and has_unknown_side(text, clause.start, clause.end):
         return True
-    if " or " in text and (
-        _OR.match(text, clause.end) or _OR_INSIDE.search(text, clause.found.match.end(), clause.end)
-    ):
-        return True
     if told.action in _VALUED and has_unknown(text[clause.found.match.end() : clause.end].split()):
         return True
     before = text[: min(clause.start, clause.found.match.start())].rsplit(maxsplit=2)[-2:]
@@ -194,8 +187,6 @@ def _take_bare(
     is_called = line.texts[:1] == [NAME]
     beside = {each.told.action for each in clauses if not each.is_expected}
     has_route = any(each.told.via for each in clauses) or NAME not in text
-    if is_called and not clauses and len(gaps) > 1:
-        return
     for gap in gaps:
         if not gap.words:
             continue
