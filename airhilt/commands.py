@@ -10,7 +10,10 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
-from airhilt.quantities import AltitudeFt, Flag, Number, VerticalRateFpm
+from airhilt.quantities import AltitudeFt, Count, Flag, Name, Number, VerticalRateFpm
+
+Side = Literal["left", "right"]
+CircuitLeg = Literal["upwind", "crosswind", "downwind", "base", "final"]
 
 
 class _Command(BaseModel):
@@ -64,6 +67,28 @@ class ResumeRouteCommand(_Command):
     action: Literal["resume_route"]
 
 
+class DirectCommand(_Command):
+    """Fly straight to a fix or a navigation aid, and on as before from there."""
+
+    action: Literal["direct"]
+    to: Name = Field(description="its name in the scenario")
+
+
+class OrbitCommand(_Command):
+    """Fly a full turn, and go on as before."""
+
+    action: Literal["orbit"]
+    turn: Side = "right"
+
+
+class HoldAtCommand(_Command):
+    """Fly to a fix and hold there, in turns to the right unless told otherwise."""
+
+    action: Literal["hold_at"]
+    fix: Name
+    turn: Side = "right"
+
+
 class DriftDownCommand(_Command):
     """Descend at drift-down speed after an engine failure, to where the altitude can be kept."""
 
@@ -111,6 +136,7 @@ class LandCommand(_Command):
         default=None, description="null: the first exit that a normal rollout can take"
     )
     vacate: Flag = Field(default=True, description="false: the aircraft stops on the runway")
+    then: Literal["full_stop", "touch_and_go", "stop_and_go", "low_approach"] = "full_stop"
 
 
 class GoAroundCommand(_Command):
@@ -125,6 +151,42 @@ class SideStepCommand(_Command):
 
     action: Literal["side_step"]
     runway: RunwayIdent
+
+
+class ApproachCommand(_Command):
+    """Fly the approach to a runway; this is no clearance to land."""
+
+    action: Literal["approach"]
+    runway: RunwayIdent
+    kind: Literal["straight_in", "visual", "circling"] = "straight_in"
+
+
+class JoinCommand(_Command):
+    """Join the traffic circuit of a runway on one of its legs."""
+
+    action: Literal["join"]
+    leg: CircuitLeg
+    runway: RunwayIdent
+    side: Side = "left"
+
+
+class ExtendCommand(_Command):
+    """Fly on along a leg of the circuit until told to turn."""
+
+    action: Literal["extend"]
+    leg: CircuitLeg = "downwind"
+
+
+class ShortApproachCommand(_Command):
+    """Turn from downwind to a final approach as short as is safe."""
+
+    action: Literal["short_approach"]
+
+
+class ReturnToFieldCommand(_Command):
+    """Fly back to the airport, and approach the runway in use there."""
+
+    action: Literal["return_to_field"]
 
 
 # --- on the ground --------------------------------------------------------------------------
@@ -153,6 +215,80 @@ class ContinueCommand(_Command):
     """Go on after `HoldPositionCommand`."""
 
     action: Literal["continue"]
+
+
+class TaxiToCommand(_Command):
+    """Taxi, or drive, to where a controller says, and hold short of each runway on the way.
+
+    The end of the way to a runway is its holding position.
+    """
+
+    action: Literal["taxi_to"]
+    runway: RunwayIdent | None = None
+    place: Name | None = Field(default=None, description="a stand, a holding point or a taxiway")
+    via: tuple[TaxiwayName, ...] = Field(default=(), max_length=40)
+
+
+class HoldShortCommand(_Command):
+    """Taxi on as before, and stop before a runway or a taxiway."""
+
+    action: Literal["hold_short"]
+    runway: RunwayIdent | None = None
+    taxiway: TaxiwayName | None = None
+
+
+class CrossCommand(_Command):
+    """Cross a runway, and go on as before beyond it."""
+
+    action: Literal["cross"]
+    runway: RunwayIdent | None = Field(default=None, description="null: the next one ahead")
+    at: TaxiwayName | None = None
+
+
+class VacateCommand(_Command):
+    """Leave the runway."""
+
+    action: Literal["vacate"]
+    exit: TaxiwayName | None = Field(default=None, description="null: the next one")
+    side: Side | None = None
+
+
+class BacktrackCommand(_Command):
+    """Enter the runway, taxi along it against its direction of use, and line up."""
+
+    action: Literal["backtrack"]
+    runway: RunwayIdent
+
+
+class FollowCommand(_Command):
+    """Taxi or fly behind another aircraft or vehicle."""
+
+    action: Literal["follow"]
+    whom: Name = Field(description="its callsign, or words for its type")
+
+
+class GiveWayCommand(_Command):
+    """Let another aircraft or vehicle pass before going on."""
+
+    action: Literal["give_way"]
+    to: Name = Field(description="its callsign, or words for its type")
+
+
+class PushBackCommand(_Command):
+    """Push back from the stand."""
+
+    action: Literal["push_back"]
+
+
+# --- on the radio ---------------------------------------------------------------------------
+
+
+class ContactCommand(_Command):
+    """Leave the frequency for that of another unit, and call there."""
+
+    action: Literal["contact"]
+    unit: Name | None = Field(default=None, description="null: whoever is on the frequency")
+    frequency_khz: Count | None = Field(default=None, description="null: that of the unit")
 
 
 # --- wildlife -------------------------------------------------------------------------------
@@ -193,6 +329,23 @@ AircraftCommand = (
     | TaxiCommand
     | HoldPositionCommand
     | ContinueCommand
+    | DirectCommand
+    | OrbitCommand
+    | HoldAtCommand
+    | ApproachCommand
+    | JoinCommand
+    | ExtendCommand
+    | ShortApproachCommand
+    | ReturnToFieldCommand
+    | TaxiToCommand
+    | HoldShortCommand
+    | CrossCommand
+    | VacateCommand
+    | BacktrackCommand
+    | FollowCommand
+    | GiveWayCommand
+    | PushBackCommand
+    | ContactCommand
 )
 WildlifeCommand = MoveCommand | StandCommand
 

@@ -64,6 +64,7 @@ class ControllerCheck:
         )
         meant = listens.parse(right.text).instructions
         return in_script or tuple(
-            ScriptedCommand(actor=crew, command=command, delay_s=COMPLY_AFTER_S)
-            for command in listens.commands_of(meant, self._stations.bound_runway(crew))
+            ScriptedCommand(actor=crew, command=order.command, delay_s=COMPLY_AFTER_S)
+            for order in listens.orders_of(meant, self._stations.bound_runway(crew))
+            if order.command is not None
         )

@@ -194,6 +194,7 @@ class PersonCalls:
             return line.commands
         runway = self._stations.bound_runway(call.addressed)
         return tuple(
-            ScriptedCommand(actor=call.addressed, command=command)
-            for command in listener.commands_of(meant.instructions, runway)
+            ScriptedCommand(actor=call.addressed, command=order.command)
+            for order in listener.orders_of(meant.instructions, runway)
+            if order.command is not None
         )

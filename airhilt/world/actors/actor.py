@@ -55,6 +55,12 @@ class Actor(Protocol):
     def mesh(self, t_s: float) -> str:
         """Return the name of the mesh that it shows at a time in seconds."""
 
+    def refusal(self, command: Command) -> str | None:
+        """Return why the actor cannot carry out a command now, as it would say; None if it can.
+
+        It changes nothing. What it does not foresee, `command` still raises.
+        """
+
     def command(self, command: Command) -> None:
         """Carry out a command; raise `Unable` if the actor cannot."""
 

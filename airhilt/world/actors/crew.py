@@ -110,6 +110,11 @@ class Crew:
         self._return_lateral = self.body.en_route.resume_route
         self._has_route = True
 
+    def refusal(self, command: Command) -> str | None:
+        """Return why the crew cannot carry out a command now; None if it can."""
+        why = self._envelope.unflyable(command)
+        return None if why is None else f"unable {why}"
+
     def command(self, command: Command) -> None:
         """Carry out a command, now or after the advisory that is followed, or raise `Unable`."""
         if self._followed:
@@ -125,9 +130,9 @@ class Crew:
             raise Unable(f"unable, {error}") from None
 
     def _carry_out(self, command: Command) -> None:
-        why = self._envelope.unflyable(command)
+        why = self.refusal(command)
         if why is not None:
-            raise Unable(f"unable {why}")
+            raise Unable(why)
         try:
             if not self.runway_operations.carry_out(command):
                 self._fly(command)

@@ -7,20 +7,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from airhilt.commands import (
-    AltitudeCommand,
-    CancelTakeoffCommand,
-    Command,
-    ContinueCommand,
-    GoAroundCommand,
-    HoldPositionCommand,
-    LandCommand,
-    LineUpCommand,
-    SpeedCommand,
-    TakeOffCommand,
-    TrackCommand,
-)
+from airhilt.commands import Command
 from airhilt.phraseology import TAU_ASR, Call, Instruction, agree, parse_call
+from airhilt.world.actors.orders import Order, orders_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,27 +35,11 @@ class Listener:
         """Return the meaning of a call."""
         return parse_call(text, self.callsigns, word_confidences)
 
-    def commands_of(
+    def orders_of(
         self, instructions: Iterable[Instruction], bound_runway: str | None
-    ) -> tuple[Command, ...]:
-        """Return the commands that instructions give, as far as there is a command for each.
-
-        Headings are magnetic, and are flown as true tracks: without wind.
-
-        Instructions with a condition give none: their words do not say when it is met. A level that
-        comes with a takeoff or a go-around is the level that it climbs to. A level to cross a fix
-        at, or not to pass, is no level to fly to.
-        """
-        now = [instruction for instruction in instructions if not instruction.is_conditional]
-        levels = (one for one in now if one.action == "altitude" and one.bound is None)
-        level_ft = next((one.altitude_ft for one in levels if one.altitude_ft is not None), None)
-        climbs = any(one.action in ("cleared_for_takeoff", "go_around") for one in now)
-        found = [
-            _command_of(instruction, bound_runway, level_ft, self.variation_deg)
-            for instruction in now
-            if not climbs or instruction.action != "altitude"
-        ]
-        return tuple(dict.fromkeys(command for command in found if command is not None))
+    ) -> tuple[Order, ...]:
+        """Return the orders that instructions give, one for each, as of `orders.orders_of`."""
+        return orders_of(instructions, bound_runway, self.variation_deg)
 
     def understand(
         self,
@@ -100,7 +73,7 @@ class Listener:
             return Understanding("as_said", taken)
         if not taken.instructions:
             return Understanding("unclear", taken)
-        return Understanding("otherwise", taken, self.commands_of(taken.instructions, bound_runway))
+        return Understanding("otherwise", taken, self._commands(taken, bound_runway))
 
     def overhear(
         self,
@@ -114,7 +87,7 @@ class Listener:
         if words(heard) == words(said):
             return Understanding("not_for_me")
         taken = self.parse(heard, word_confidences)
-        commands = self.commands_of(taken.instructions, bound_runway)
+        commands = self._commands(taken, bound_runway)
         is_mine = self._is_not_for(taken, (callsign,)) is None and taken.kind in (
             "instruction",
             "correction",
@@ -122,6 +95,10 @@ class Listener:
         if not is_mine or not commands or taken.confidence < TAU_ASR:
             return Understanding("not_for_me", taken)
         return Understanding("otherwise", taken, commands)
+
+    def _commands(self, call: Call, bound_runway: str | None) -> tuple[Command, ...]:
+        orders = self.orders_of(call.instructions, bound_runway)
+        return tuple(dict.fromkeys(each.command for each in orders if each.command is not None))
 
     def differs(self, read_back: str, said: str) -> bool:
         """Return whether a readback contradicts the call; a shorter readback does not."""
@@ -170,36 +147,3 @@ def _numbers(instruction: Instruction) -> tuple[float | None, ...]:
 def words(text: str) -> list[str]:
     """Return the words of a call without case and punctuation."""
     return re.findall(r"[a-z0-9]+", text.lower())
-
-
-def _command_of(
-    instruction: Instruction,
-    bound_runway: str | None,
-    level_ft: float | None,
-    variation_deg: float,
-) -> Command | None:
-    runway = instruction.runway or bound_runway
-    climb = {} if level_ft is None else {"climb_to_ft": level_ft}
-    match instruction.action:
-        case "go_around":
-            return GoAroundCommand(action="go_around", **climb)
-        case "cancel_takeoff":
-            return CancelTakeoffCommand(action="cancel_takeoff")
-        case "hold_short" | "hold_position" | "stop":
-            return HoldPositionCommand(action="hold_position")
-        case "cross" | "proceed":
-            return ContinueCommand(action="continue")
-        case "line_up" if runway is not None:
-            return LineUpCommand(action="line_up", runway=runway)
-        case "cleared_for_takeoff" if runway is not None:
-            return TakeOffCommand(action="take_off", runway=runway, **climb)
-        case "cleared_to_land" if runway is not None:
-            return LandCommand(action="land", runway=runway)
-        case "altitude" if level_ft is not None:
-            return AltitudeCommand(action="altitude", altitude_ft=level_ft)
-        case "heading" if instruction.heading_deg is not None:
-            track_deg = (instruction.heading_deg + variation_deg) % 360.0
-            return TrackCommand(action="track", track_deg=track_deg)
-        case "speed" if instruction.speed_kt is not None:
-            return SpeedCommand(action="speed", cas_kt=instruction.speed_kt)
-    return None

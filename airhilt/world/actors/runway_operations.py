@@ -11,8 +11,10 @@ from airhilt.commands import (
     CancelTakeoffCommand,
     Command,
     ContinueCommand,
+    CrossCommand,
     GoAroundCommand,
     HoldPositionCommand,
+    HoldShortCommand,
     LandCommand,
     LineUpCommand,
     RouteCommand,
@@ -114,10 +116,10 @@ class RunwayOperations:
         match command:
             case TaxiCommand():
                 self._taxi(command)
-            case HoldPositionCommand():
+            case HoldPositionCommand() | HoldShortCommand():
                 self._aircraft.procedures.hold_position()
                 self._next = None
-            case ContinueCommand():
+            case ContinueCommand() | CrossCommand():
                 self._aircraft.procedures.resume_taxi()
             case LineUpCommand(runway=runway):
                 self._line_up(runway)

@@ -49,10 +49,17 @@ class Driver(_SurfaceActor[Driven]):
     reactions: ReactionModel
     category: Literal["vehicle"] = "vehicle"
 
+    def refusal(self, command: Command) -> str | None:
+        """Return why the driver cannot carry out a command; None if its kind has such a command."""
+        if isinstance(command, self.kind.understands):
+            return None
+        return f"unable, a driver does not {command.action.replace('_', ' ')}"
+
     def command(self, command: Command) -> None:
         """Carry out a command; raise `Unable` without a way, or if its kind has no such command."""
-        if not isinstance(command, self.kind.understands):
-            raise Unable(f"unable, a driver does not {command.action.replace('_', ' ')}")
+        why = self.refusal(command)
+        if why is not None:
+            raise Unable(why)
         self._carry_out(command)
 
     def _carry_out(self, command: Command) -> bool:
@@ -94,10 +101,17 @@ class Animal(_SurfaceActor[Creature]):
     """All actors of the scenario, itself among them."""
     category: Literal["wildlife"] = "wildlife"
 
+    def refusal(self, command: Command) -> str | None:
+        """Return why an animal cannot carry out a command; None if animals do such a thing."""
+        if isinstance(command, self.kind.understands):
+            return None
+        return f"animals do not {command.action.replace('_', ' ')}"
+
     def command(self, command: Command) -> None:
         """Move as the plan says; raise `Unable` if animals do not do that, or it is no place."""
-        if not isinstance(command, self.kind.understands):
-            raise Unable(f"animals do not {command.action.replace('_', ' ')}")
+        why = self.refusal(command)
+        if why is not None:
+            raise Unable(why)
         try:
             self.kind.carry_out(self.body, command, self.site)
         except (ValueError, ScenarioError) as error:

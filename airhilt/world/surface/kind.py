@@ -10,7 +10,9 @@ from pydantic import BaseModel
 from airhilt.commands import (
     Command,
     ContinueCommand,
+    CrossCommand,
     HoldPositionCommand,
+    HoldShortCommand,
     MoveCommand,
     StandCommand,
     TaxiCommand,
@@ -139,6 +141,8 @@ class DrivenKind:
     understands: ClassVar[tuple[type[BaseModel], ...]] = (
         TaxiCommand,
         HoldPositionCommand,
+        HoldShortCommand,
+        CrossCommand,
         ContinueCommand,
     )
     dimensions: Size
@@ -158,11 +162,11 @@ class DrivenKind:
                 here = (body.state.latitude_rad, body.state.longitude_rad)
                 way = taxi_way(site, here, command, body.dimensions.length_m / 2.0)
                 body.drive(way, None if speed is None else speed * KNOT)
-            case HoldPositionCommand():
+            case HoldPositionCommand() | HoldShortCommand():
                 if body.phase != "driving":
                     return False
                 body.stop()
-            case ContinueCommand():
+            case ContinueCommand() | CrossCommand():
                 body.resume()
             case _:
                 raise ValueError(f"a driver does not {command.action.replace('_', ' ')}")

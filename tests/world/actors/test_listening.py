@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.commands import TrackCommand
-from airhilt.phraseology import TAU_ASR, Action, Instruction, parse_call
+from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.world.actors import listening
 from airhilt.world.actors.listening import Listener, Understanding
 
@@ -164,77 +163,3 @@ def test_a_readback_of_another_clearance_differs() -> None:
     said = "Delta four five six, runway three three, continue holding, traffic landing."
     read = "Runway three three, cleared for takeoff, Delta four five six."
     assert LISTENER.differs(read, said)
-
-
-def test_an_instruction_makes_a_command(subtests: pytest.Subtests) -> None:
-    rows: list[Any] = [
-        ({"action": "go_around"}, {"action": "go_around", "climb_to_ft": 3000.0}),
-        ({"action": "cancel_takeoff"}, {"action": "cancel_takeoff"}),
-        ({"action": "hold_position"}, {"action": "hold_position"}),
-        ({"action": "hold_short", "runway": "01"}, {"action": "hold_position"}),
-        ({"action": "cross", "runway": "01"}, {"action": "continue"}),
-        ({"action": "line_up", "runway": "19"}, {"action": "line_up", "runway": "19"}),
-        ({"action": "line_up"}, {"action": "line_up", "runway": "01"}),
-        (
-            {"action": "cleared_for_takeoff", "runway": "19"},
-            {"action": "take_off", "runway": "19", "climb_to_ft": 5000.0},
-        ),
-        (
-            {"action": "altitude", "altitude_ft": 5000.0},
-            {"action": "altitude", "altitude_ft": 5000.0},
-        ),
-        ({"action": "heading", "heading_deg": 90.0}, {"action": "track", "track_deg": 90.0}),
-        ({"action": "speed", "speed_kt": 180.0}, {"action": "speed", "cas_kt": 180.0}),
-    ]
-    for instruction, command in rows:
-        with subtests.test(str((instruction, command))):
-            (made,) = LISTENER.commands_of([Instruction(**instruction)], "01")
-            assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
-
-
-@pytest.mark.parametrize("action", ["line_up", "cleared_for_takeoff", "cleared_to_land"])
-def test_without_any_runway_there_is_nothing_to_do(action: Action) -> None:
-    assert LISTENER.commands_of([Instruction(action=action)], None) == ()
-
-
-def test_a_level_with_a_takeoff_is_where_it_climbs_to() -> None:
-    said = [Instruction("cleared_for_takeoff", "01"), Instruction("altitude", altitude_ft=6000.0)]
-    (command,) = LISTENER.commands_of(said, None)
-    assert (command.action, command.climb_to_ft) == ("take_off", 6000.0)
-
-
-def test_what_is_said_twice_is_done_once() -> None:
-    said = [Instruction("stop"), Instruction("hold_short", "01")]
-    assert [command.action for command in LISTENER.commands_of(said, None)] == ["hold_position"]
-
-
-def test_what_holds_on_a_condition_is_not_done_at_once() -> None:
-    said = [Instruction("line_up", "01", condition="behind the landing cessna")]
-    assert LISTENER.commands_of(said, None) == ()
-
-
-def test_what_holds_until_an_event_is_done_at_once() -> None:
-    (command,) = LISTENER.commands_of(
-        [Instruction("speed", speed_kt=180.0, until="until established")], None
-    )
-    assert (command.action, command.cas_kt) == ("speed", 180.0)
-
-
-def test_what_has_no_command_is_not_done_as_another(subtests: pytest.Subtests) -> None:
-    for said in [
-        Instruction("cross_fix", position="lander", altitude_ft=5000.0, speed_kt=250.0),
-        Instruction("altitude", sense="maintain", altitude_ft=5000.0, bound="or_less"),
-        Instruction("hold_at", position="deer park"),
-        Instruction("descend_via", position="hasty 2"),
-        Instruction("turn_by", turn="left", turn_deg=20.0),
-        Instruction("heading", heading_deg=270.0, condition="when airborne"),
-    ]:
-        with subtests.test(str(said)):
-            assert LISTENER.commands_of([said], None) == ()
-
-
-def test_headings_that_are_said_are_magnetic() -> None:
-    west = Listener(ON_FREQUENCY, variation_deg=-10.7)
-    (command,) = west.commands_of([Instruction(action="heading", heading_deg=5.0)], None)
-    assert isinstance(command, TrackCommand)
-    assert command.track_deg == pytest.approx(354.3)

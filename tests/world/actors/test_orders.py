@@ -1,0 +1,66 @@
+"""What the instructions of a call order, and what they leave open."""
+
+from __future__ import annotations
+
+from typing import Any, get_args
+
+import pytest
+
+from airhilt.phraseology import Action, Instruction
+from airhilt.world.actors.orders import NOTHING_MOVES, orders_of
+
+
+def order(*instructions: Instruction, runway: str | None = None, variation_deg: float = 0.0) -> Any:
+    """Return the first order of some instructions."""
+    return orders_of(instructions, runway, variation_deg)[0]
+
+
+@pytest.mark.parametrize("action", get_args(Action))
+def test_every_instruction_is_a_command_or_needs_none_or_is_refused_or_asked_about(
+    action: Action,
+) -> None:
+    (made,) = orders_of([Instruction(action)], None, 0.0)
+    outcomes = [made.command is not None, bool(made.unable), bool(made.question)]
+    assert sum(outcomes) == (0 if action in NOTHING_MOVES else 1)
+
+
+def test_an_instruction_is_done_at_the_runway_and_with_the_numbers_that_it_names(
+    subtests: pytest.Subtests,
+) -> None:
+    rows: list[Any] = [
+        ({"action": "line_up", "runway": "19"}, {"action": "line_up", "runway": "19"}),
+        ({"action": "line_up"}, {"action": "line_up", "runway": "01"}),
+        ({"action": "circle", "runway": "33"}, {"action": "approach", "runway": "33"}),
+        ({"action": "hold_short", "runway": "01"}, {"action": "hold_short", "runway": "01"}),
+        ({"action": "cross", "runway": "01", "position": "D"}, {"runway": "01", "at": "D"}),
+        ({"action": "altitude", "altitude_ft": 5000.0}, {"altitude_ft": 5000.0}),
+        ({"action": "speed", "speed_kt": 180.0, "until": "until established"}, {"cas_kt": 180.0}),
+        ({"action": "turn_by", "turn": "left", "turn_deg": 20.0}, {"degrees": -20.0}),
+        (
+            {"action": "taxi", "runway": "01", "via": ("J", "A")},
+            {"runway": "01", "via": ("J", "A")},
+        ),
+    ]
+    for instruction, command in rows:
+        with subtests.test(str(instruction)):
+            made = order(Instruction(**instruction), runway="01").command
+            assert made.model_dump().items() >= command.items()
+
+
+def test_a_level_with_a_takeoff_is_where_it_climbs_to() -> None:
+    said = Instruction("cleared_for_takeoff", "01"), Instruction("altitude", altitude_ft=6000.0)
+    takeoff, climb = orders_of(said, None, 0.0)
+    assert takeoff.command is not None
+    assert takeoff.command.model_dump()["climb_to_ft"] == 6000.0
+    assert climb.command is None
+    assert not climb.unable
+
+
+def test_what_is_missing_is_asked_for() -> None:
+    assert order(Instruction("cleared_to_land")).question == "say runway"
+    assert order(Instruction("line_up", "01", condition="behind the landing cessna")).question
+
+
+def test_headings_that_are_said_are_magnetic() -> None:
+    made = order(Instruction("heading", heading_deg=5.0), variation_deg=-10.7).command
+    assert made.track_deg == pytest.approx(354.3)
