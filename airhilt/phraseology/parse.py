@@ -1,7 +1,8 @@
 """The meaning of a call, from its words.
 
-`parse_call` finds the callsign (`callsigns`), then the actions (`actions`). It leaves out words
-about others (traffic), separates conditions, and drops actions that are not meant (`denials`).
+`parse_call` finds the callsign (`callsigns`), and puts corrected values in place (`corrections`).
+The rest is cut into clauses (`clauses`). Each has the slots of its action (`actions`), is dropped
+if its own words deny it (`denials`), and gets its own condition (`conditions`).
 """
 
 from __future__ import annotations

@@ -64,6 +64,12 @@ def test_a_condition_belongs_to_the_clause_that_it_begins_or_ends(
         ),
         ("direct dixie when able", (I("direct", position="dixie", condition="when able"),)),
         ("unable, hold position", (hold,)),
+        ("cancel crossing clearance, hold position", (hold,)),
+        ("cancel clearance, hold position", (hold,)),
+        (
+            "hold short of runway 15, cross after the landing traffic",
+            (I("hold_short", "15"),),
+        ),
     ]
     for text, meant in table:
         with subtests.test(text):
