@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from airhilt.phraseology.bare_routes import bare_route
 from airhilt.phraseology.bare_values import bare_values, without_courtesies
-from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
+from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
 from airhilt.phraseology.clauses import Line, Span
 from airhilt.phraseology.conditions import (
     YIELDED,
@@ -45,8 +45,8 @@ class Content:
     """The meaning of some words."""
 
     instructions: list[Instruction] = field(default_factory=list)
-    doing: list[bool] = field(default_factory=list)
-    """True if each is being done now, as in "climbing"."""
+    doing: set[Action] = field(default_factory=set)
+    """Actions that are being done now, as in "climbing"."""
     expected: list[Instruction] = field(default_factory=list)
     traffic: list[str] = field(default_factory=list)
     pressure_hpa: float | None = None
@@ -215,7 +215,7 @@ def _take_bare(
             if is_level and before is not None:  # It waits for what the heading waits for.
                 values = [replace(each, condition=before.told.condition) for each in values]
         for each in values:
-            _add(content, _heard(each, each.confidence, gap.heard, gap.heard), is_doing=False)
+            _add(content, _heard(each, each.confidence, gap.heard, gap.heard))
 
 
 def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
@@ -263,7 +263,7 @@ def _clauses(line: Line, plain: str) -> list[Clause]:
     return clauses
 
 
-def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:
+def _add(content: Content, instruction: Instruction, *, is_doing: bool = False) -> None:
     """Add an instruction, or replace one that has fewer of its details."""
     for index, before in enumerate(content.instructions):
         if _says_all(before, instruction):
@@ -272,7 +272,8 @@ def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:
             content.instructions[index] = instruction
             return
     content.instructions.append(instruction)
-    content.doing.append(is_doing)
+    if is_doing:
+        content.doing.add(instruction.action)
 
 
 def _says_all(full: Instruction, part: Instruction) -> bool:

@@ -197,11 +197,8 @@ def _kind(
     content: Content,
     corrects: bool,
 ) -> Kind:
-    doing = [
-        doing
-        for each, doing in zip(content.instructions, content.doing, strict=True)
-        if each.action not in REPORTS
-    ]
+    actions = [each.action for each in content.instructions if each.action not in REPORTS]
+    doing = [action in content.doing for action in actions]
     if "disregard" in present:
         return "disregard"
     if doing and corrects:
