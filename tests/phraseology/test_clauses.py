@@ -111,6 +111,10 @@ def test_the_slots_of_a_clause_are_those_of_its_own_words(subtests: pytest.Subte
             ),
         ),
         ("hold short November Papa 1", (I("hold_short", hold_short="NP1"),)),
+        (
+            "taxi via N1, hold short NP1",
+            (I("taxi", via=("N1",)), I("hold_short", hold_short="NP1")),
+        ),
         ("squawk number 2446", (I("squawk", squawk="2446"),)),
         ("climb at 1200 fpm", (I("vertical_rate", sense="climb", rate_fpm=1200.0),)),
         ("climb immediately", (I("altitude", sense="climb", immediate=True),)),
