@@ -29,8 +29,9 @@ The slots of those in the circuit and of questions:
 - join: fly a leg of the circuit; ``position`` is the leg ("downwind", "base", "final", "crosswind",
   "upwind", "straight in"), with ``turn`` and ``runway`` if they are said.
 - side_step: land on the parallel ``runway`` instead.
-- return_to_field: come back to land; no slots.
+- return_to_field: come back to land, on ``runway`` if it is said.
 - expedite: do without delay what was told before; no slots.
+- vertical_rate: ``rate_fpm``, with ``sense`` if no level is named beside it ("climb at 1,200").
 - say: tell by radio what ``position`` names ("altitude", "heading", "speed", "position",
   "intentions").
 """

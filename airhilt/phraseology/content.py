@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from airhilt.phraseology.bare_routes import bare_route
 from airhilt.phraseology.bare_values import bare_values, without_courtesies
-from airhilt.phraseology.call import CLEARANCES, REPORTS, Instruction
+from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
 from airhilt.phraseology.clauses import Line, Span
 from airhilt.phraseology.conditions import (
     YIELDED,
@@ -28,9 +28,6 @@ from airhilt.phraseology.words import Words
 
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
 """Details of an action."""
-_OR = re.compile(r" or (?:[0-9]|flight level|left|right)")
-_OR_INSIDE = re.compile(r"[0-9] or [0-9]")
-"""Two values of which one is meant."""
 _VIA = re.compile(r"(?<!\S)(?:climb|descend) via(?: [^\s|]+){0,4} ?$")
 _OF_PROCEDURE = re.compile(
     r"(?: (?!ahead|caution|contact|expect|monitor|on|report)[^\s|]+){0,5}"
@@ -48,8 +45,8 @@ class Content:
     """The meaning of some words."""
 
     instructions: list[Instruction] = field(default_factory=list)
-    doing: list[bool] = field(default_factory=list)
-    """True if each is being done now, as in "climbing"."""
+    doing: set[Action] = field(default_factory=set)
+    """Actions that are being done now, as in "climbing"."""
     expected: list[Instruction] = field(default_factory=list)
     traffic: list[str] = field(default_factory=list)
     pressure_hpa: float | None = None
@@ -114,10 +111,6 @@ def _is_doubtful(told: Instruction, text: str, clause: Clause) -> bool:
         if _VIA.search(text, 0, clause.start) and _OF_PROCEDURE.match(text, clause.end):
             return True
     if told.runway is not None and has_unknown_side(text, clause.start, clause.end):
-        return True
-    if " or " in text and (
-        _OR.match(text, clause.end) or _OR_INSIDE.search(text, clause.found.match.end(), clause.end)
-    ):
         return True
     if told.action in _VALUED and has_unknown(text[clause.found.match.end() : clause.end].split()):
         return True
@@ -194,8 +187,6 @@ def _take_bare(
     is_called = line.texts[:1] == [NAME]
     beside = {each.told.action for each in clauses if not each.is_expected}
     has_route = any(each.told.via for each in clauses) or NAME not in text
-    if is_called and not clauses and len(gaps) > 1:
-        return
     for gap in gaps:
         if not gap.words:
             continue
@@ -224,7 +215,7 @@ def _take_bare(
             if is_level and before is not None:  # It waits for what the heading waits for.
                 values = [replace(each, condition=before.told.condition) for each in values]
         for each in values:
-            _add(content, _heard(each, each.confidence, gap.heard, gap.heard), is_doing=False)
+            _add(content, _heard(each, each.confidence, gap.heard, gap.heard))
 
 
 def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
@@ -272,7 +263,7 @@ def _clauses(line: Line, plain: str) -> list[Clause]:
     return clauses
 
 
-def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:
+def _add(content: Content, instruction: Instruction, *, is_doing: bool = False) -> None:
     """Add an instruction, or replace one that has fewer of its details."""
     for index, before in enumerate(content.instructions):
         if _says_all(before, instruction):
@@ -281,7 +272,8 @@ def _add(content: Content, instruction: Instruction, *, is_doing: bool) -> None:
             content.instructions[index] = instruction
             return
     content.instructions.append(instruction)
-    content.doing.append(is_doing)
+    if is_doing:
+        content.doing.add(instruction.action)
 
 
 def _says_all(full: Instruction, part: Instruction) -> bool:

@@ -147,7 +147,6 @@ def _take(content: Content, part: Words, marker: str) -> None:
     withdrawn, is_anew = list(content.instructions), False
     if marker == "disregard":
         content.instructions.clear()
-        content.doing.clear()
         content.traffic.clear()
         size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
         is_anew = size == 1 and bool(withdrawn)
@@ -156,19 +155,18 @@ def _take(content: Content, part: Words, marker: str) -> None:
         part = Words(part.texts[1:], part.confidences[1:])
     new = content_of(part)
     if is_anew:
-        kept = [i for i, each in enumerate(new.instructions) if each not in withdrawn]
-        new.doing = [new.doing[i] for i in kept]
-        new.instructions = [_given_anew(new.instructions[i], withdrawn) for i in kept]
+        new.instructions = [
+            _given_anew(each, withdrawn) for each in new.instructions if each not in withdrawn
+        ]
     content.traffic += new.traffic
+    content.doing |= new.doing
     content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
     if marker == "correction" and content.instructions:
         if new.instructions:
             _replace(content, new)
             return
         content.instructions.pop()
-        content.doing.pop()
     content.instructions += new.instructions
-    content.doing += new.doing
 
 
 def _given_anew(told: Instruction, withdrawn: list[Instruction]) -> Instruction:
@@ -184,11 +182,10 @@ def _replace(content: Content, new: Content) -> None:
     actions = {each.action for each in new.instructions}
     said = {each.action: each for each in content.instructions}
     new.instructions = [_completed(each, said.get(each.action)) for each in new.instructions]
-    kept = [i for i, each in enumerate(content.instructions) if each.action not in actions]
+    kept = [each for each in content.instructions if each.action not in actions]
     if len(kept) == len(content.instructions):
         kept.pop()
-    content.instructions[:] = [*(content.instructions[i] for i in kept), *new.instructions]
-    content.doing[:] = [*(content.doing[i] for i in kept), *new.doing]
+    content.instructions[:] = [*kept, *new.instructions]
 
 
 def _completed(new: Instruction, last: Instruction | None) -> Instruction:

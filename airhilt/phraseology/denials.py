@@ -133,7 +133,7 @@ def is_meant(
     if at and tuple(lead[at : at + 2]) == ("no", NAME):
         return True  # The speaker corrects the callsign: "Delta, no, United 914".
     if word in DENIALS:
-        return lead[-1] == "unable" and action in STOPS
+        return action in STOPS and lead[-1] in ("unable", "clearance")
     if action not in CLEARANCES and tuple(lead[at : at + 2]) == ("need", "you"):
         return True  # "I need you to turn left".
     return word not in OPEN or action in REPORTS

@@ -1,7 +1,8 @@
 """The meaning of a call, from its words.
 
-`parse_call` finds the callsign (`callsigns`), then the actions (`actions`). It leaves out words
-about others (traffic), separates conditions, and drops actions that are not meant (`denials`).
+`parse_call` finds the callsign (`callsigns`), and puts corrected values in place (`corrections`).
+The rest is cut into clauses (`clauses`). Each has the slots of its action (`actions`), is dropped
+if its own words deny it (`denials`), and gets its own condition (`conditions`).
 """
 
 from __future__ import annotations
@@ -196,11 +197,8 @@ def _kind(
     content: Content,
     corrects: bool,
 ) -> Kind:
-    doing = [
-        doing
-        for each, doing in zip(content.instructions, content.doing, strict=True)
-        if each.action not in REPORTS
-    ]
+    actions = [each.action for each in content.instructions if each.action not in REPORTS]
+    doing = [action in content.doing for action in actions]
     if "disregard" in present:
         return "disregard"
     if doing and corrects:

@@ -48,8 +48,9 @@ _POINT = re.compile(
     rf" (?:at |of )?(?:the )?(?:taxiway |intersection |(?:holding )?(?:point|decimal) )?({TAXIWAY})"
 )
 _LINK = re.compile(rf" (?:of |at )?({NUMBERED_LINK})")
+_SIGN = rf"(?:{LETTER}|[a-z](?!\S))"
 _DOUBLE_POINT = re.compile(
-    rf" (?:of )?(?:taxiway )?({LETTER}) ({LETTER}(?: [0-9]{{1,2}}(?!\S))?)(?= ?(?:$|\||#))"
+    rf" (?:of )?(?:taxiway )?({_SIGN}) ({_SIGN}(?: [0-9]{{1,2}}(?!\S))?)(?= ?(?:$|\||#))"
 )
 """Taxiway of two letters, with or without a number, behind which the call ends."""
 _OF_LANDING = re.compile(r"(?<!\S)(?:land|landing|final|around)(?!\S)")

@@ -81,7 +81,7 @@ BARE_FEET = re.compile(
 _NOT_NAMES = (
     r"(?:question|cancelled|runway|heading|as|at|and|then|via|on|or|to|for|with|from|of|the|a"
     r"|when|after|until|before|once|if|behind|is|it|who|what|in|any|my|your|this|that|radial|course|flight|level|thousand"
-    r"|approach|approved|present|own)(?!\S)"
+    r"|approach|approved|clearance|present|own)(?!\S)"
 )
 FIX_ENDS = (
     r"(?:runway|heading|at|and|then|via|on|or|to|for|with|from|when|after|until|before|once|if"

@@ -22,6 +22,8 @@ FILLERS = frozenset({"uh", "um", "er", "ah", "eh", "erm", "hm", "hmm", "mm", "uh
 THOUSANDS = re.compile(r",(?:(?<=\b[0-9],)|(?<=\b[0-9]{2},))(?=[0-9]{3}\b)")
 """A thousands separator, as in 5,000."""
 DECIMALS = re.compile(r"(?<![0-9])([0-9]+)\.([0-9]+)")
+DESIGNATORS = re.compile(r"\b(?!fl)([a-z])([a-z])([0-9]{1,2})\b")
+"""A taxiway of two letters, as in NP1."""
 PLAIN = re.compile(r"[a-z ,.;]*")
 """A text without numbers, which its blanks and signs take apart."""
 PIECES = re.compile(r"[a-z]+(?:'[a-z]+)?|[0-9]+|[,.;]")
@@ -175,7 +177,8 @@ def _pieces(text: str) -> list[str]:
     """Return words, numbers and signs."""
     if PLAIN.fullmatch(text):
         return text.replace(",", " , ").replace(".", " . ").replace(";", " ; ").split()
-    return PIECES.findall(DECIMALS.sub(r"\1 decimal \2", THOUSANDS.sub("", text)))
+    text = DESIGNATORS.sub(r"\1 \2 \3", DECIMALS.sub(r"\1 decimal \2", THOUSANDS.sub("", text)))
+    return PIECES.findall(text)
 
 
 def _mend(words: Words) -> Words:

@@ -64,6 +64,12 @@ def test_a_condition_belongs_to_the_clause_that_it_begins_or_ends(
         ),
         ("direct dixie when able", (I("direct", position="dixie", condition="when able"),)),
         ("unable, hold position", (hold,)),
+        ("cancel crossing clearance, hold position", (hold,)),
+        ("cancel clearance, hold position", (hold,)),
+        (
+            "hold short of runway 15, cross after the landing traffic",
+            (I("hold_short", "15"),),
+        ),
     ]
     for text, meant in table:
         with subtests.test(text):
@@ -105,6 +111,10 @@ def test_the_slots_of_a_clause_are_those_of_its_own_words(subtests: pytest.Subte
             ),
         ),
         ("hold short November Papa 1", (I("hold_short", hold_short="NP1"),)),
+        (
+            "taxi via N1, hold short NP1",
+            (I("taxi", via=("N1",)), I("hold_short", hold_short="NP1")),
+        ),
         ("squawk number 2446", (I("squawk", squawk="2446"),)),
         ("climb at 1200 fpm", (I("vertical_rate", sense="climb", rate_fpm=1200.0),)),
         ("climb immediately", (I("altitude", sense="climb", immediate=True),)),
