@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
+from airhilt.geodesy.positions import Position
 from airhilt.quantities import LONGEST_RUN_S, FileName, Name, Number
 from airhilt.scenario.models.actors import ActorSpec, AircraftSpec, WildlifeSpec
 from airhilt.scenario.models.base import Callsign, Identifier, Model
@@ -95,6 +96,13 @@ class Scenario(Model):
     scene: Scene
     duration_s: Number = Field(gt=0.0, le=LONGEST_RUN_S, description="latest end of the run")
     actors: tuple[ActorSpec, ...] = Field(min_length=1, max_length=500)
+    fixes: dict[Name, Position] = Field(
+        default={},
+        max_length=200,
+        description="fixes and navigation aids that crews know, by name; they know the airport and "
+        "the thresholds of its runways besides",
+        examples=[{"LAM": {"type": "geodetic", "lat_deg": 51.65, "lon_deg": 0.15}}],
+    )
     radio: Radio = Radio()
     adsb: Adsb = Adsb()
     cameras: tuple[Camera, ...] = Field(default=(), max_length=100)
