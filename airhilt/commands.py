@@ -54,6 +54,34 @@ class SpeedCommand(_Command):
     cas_kt: Number = Field(gt=0.0, le=1000.0)
 
 
+class MachCommand(_Command):
+    """Fly a Mach number."""
+
+    action: Literal["mach"]
+    mach: Number = Field(gt=0.0, le=5.0)
+
+
+class ResumeSpeedCommand(_Command):
+    """Fly the usual airspeed of the aircraft type again."""
+
+    action: Literal["resume_speed"]
+
+
+class VerticalRateCommand(_Command):
+    """Climb or descend to the altitude that was told before at another rate."""
+
+    action: Literal["vertical_rate"]
+    vertical_rate_fpm: VerticalRateFpm
+
+
+class CrossFixCommand(_Command):
+    """Be at an altitude when the fix is passed, on the way as before."""
+
+    action: Literal["cross_fix"]
+    fix: Name
+    altitude_ft: AltitudeFt
+
+
 class RouteCommand(_Command):
     """Fly a route from here, such as a diversion."""
 
@@ -118,6 +146,9 @@ class TakeOffCommand(_Command):
     action: Literal["take_off"]
     runway: RunwayIdent
     climb_to_ft: AltitudeFt = 5000.0
+    track_deg: Bearing | None = Field(
+        default=None, description="true track after the takeoff; null: that of the runway"
+    )
 
 
 class CancelTakeoffCommand(_Command):
@@ -352,6 +383,10 @@ AircraftCommand = (
     | TrackCommand
     | TurnCommand
     | SpeedCommand
+    | MachCommand
+    | ResumeSpeedCommand
+    | VerticalRateCommand
+    | CrossFixCommand
     | RouteCommand
     | ResumeRouteCommand
     | DriftDownCommand

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from airhilt.errors import ScenarioError
@@ -24,6 +26,10 @@ if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout
 
 
+FIELD = ("field", "airport", "aerodrome", "airfield", "overhead")
+"""Words for the airport."""
+
+
 @dataclass(frozen=True)
 class FixedSite:
     """Fixed place on the ground or in the air, with the attributes of a moving one."""
@@ -42,6 +48,8 @@ class ScenarioSite:
     centre: GeodeticPosition
     ground_m: float
     layout: Layout | None = None
+    fixes: Mapping[str, Position] = field(default_factory=dict)
+    """Named places of the scenario."""
 
     @classmethod
     def of(cls, scenario: Scenario) -> ScenarioSite:
@@ -54,7 +62,7 @@ class ScenarioSite:
         """
         scene = scenario.scene
         if isinstance(scene, EnRouteScene):
-            return cls(scene.centre, scene.terrain_elevation_ft * FOOT)
+            return cls(scene.centre, scene.terrain_elevation_ft * FOOT, fixes=scenario.fixes)
         # Not at the top: scenarios without an airport start without the libraries behind it.
         from airhilt.world.surface.airport import load_airport
         from airhilt.world.surface.layout import Layout
@@ -64,7 +72,7 @@ class ScenarioSite:
         centre = GeodeticPosition(
             type="geodetic", lat_deg=latitude / DEGREE, lon_deg=longitude / DEGREE
         )
-        return cls(centre, layout.elevation_m, layout)
+        return cls(centre, layout.elevation_m, layout, scenario.fixes)
 
     @property
     def airport(self) -> Layout:
@@ -97,6 +105,27 @@ class ScenarioSite:
         """
         return replace(self.airport.runway(ident), elevation_m=self.ground_m)
 
+    def fix(self, name: str) -> Place | None:
+        """Return the place of a fix, the threshold of a runway, or the airport; None if unknown.
+
+        The airport is known by its location indicator, its name, and as the field.
+        """
+        words = _words(name)
+        for known, position in self.fixes.items():
+            if _words(known) == words:
+                return self.place(position)
+        if self.layout is None:
+            return None
+        if words.startswith("runway "):
+            try:
+                return self.runway(words.removeprefix("runway ").upper()).threshold
+            except ScenarioError:
+                return None
+        airport = self.layout.airport
+        if words in (*FIELD, _words(airport.icao), _words(airport.name)):
+            return self.place(self.centre)
+        return None
+
     def place(self, position: Position) -> Place:
         """Return a position as latitude and longitude in radians.
 
@@ -125,3 +154,9 @@ class ScenarioSite:
                 return self.airport.hold(position.runway, position.taxiway).place
             case NodePosition():
                 return self.airport.node(position.node)
+
+
+def _words(name: str) -> str:
+    """Return a name in lower case, without its article and without what is no letter or digit."""
+    words = re.findall(r"[a-z0-9]+", name.lower())
+    return " ".join(words[1:] if words[:1] == ["the"] else words)

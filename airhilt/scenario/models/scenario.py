@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
+from airhilt.geodesy.positions import Position
 from airhilt.quantities import LONGEST_RUN_S, FileName, Name, Number
 from airhilt.scenario.models.actors import ActorSpec, AircraftSpec, WildlifeSpec
 from airhilt.scenario.models.base import Callsign, Identifier, Model
@@ -105,6 +106,13 @@ class Scenario(Model):
         default="icao",
         description="response model of crews, drivers and controllers: its name, or a model of "
         "your own",
+    )
+    fixes: dict[Name, Position] = Field(
+        default={},
+        max_length=200,
+        description="fixes and navigation aids that crews know, by name; they know the airport and "
+        "the thresholds of its runways besides",
+        examples=[{"LAM": {"type": "geodetic", "lat_deg": 51.65, "lon_deg": 0.15}}],
     )
     radio: Radio = Radio()
     controllers: dict[Name, Controller] = Field(

@@ -13,15 +13,16 @@ from airhilt.commands import (
     Command,
     ContinueCommand,
     CrossCommand,
+    DirectCommand,
     DriftDownCommand,
     EmergencyDescentCommand,
     FollowCommand,
+    HoldAtCommand,
     HoldPositionCommand,
     HoldShortCommand,
     LineUpCommand,
     ResumeRouteCommand,
     RouteCommand,
-    SpeedCommand,
     TakeOffCommand,
     TaxiCommand,
     TaxiToCommand,
@@ -44,10 +45,13 @@ from airhilt.messages import (
     Turn,
 )
 from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
 from airhilt.world.actors.actor import Actor, Reaction, Unable
+from airhilt.world.actors.air_phases import refusal_in_phase
+from airhilt.world.actors.approaches import Approaches
 from airhilt.world.actors.behind import BehindTraffic
 from airhilt.world.actors.departure import Departure
+from airhilt.world.actors.en_route_operations import EnRouteOperations
 from airhilt.world.actors.envelope import Envelope
 from airhilt.world.actors.ground_bodies import TaxiingAircraft
 from airhilt.world.actors.ground_operations import Act, GroundOperations
@@ -113,6 +117,8 @@ class Crew:
         self._ground = GroundOperations(TaxiingAircraft(aircraft), site, traffic)
         self._departure = Departure(aircraft, site, self._ground, self.runway_operations)
         self._behind = BehindTraffic(traffic)
+        self._approaches = Approaches(aircraft, site, self.runway_operations)
+        self._en_route = EnRouteOperations(aircraft, site)
         self._reactions = ReactionModel(spec.callsign, responses, spec.pilot, seed)
         self._site = site
         self._envelope = Envelope(aircraft, site.ground_m)
@@ -185,10 +191,10 @@ class Crew:
     def _carry_out(self, command: Command) -> None:
         try:
             act = self._plan(command)
-            if act is not None:
-                act()
-            elif not self.runway_operations.carry_out(command):
+            if act is None:
                 self._fly(command)
+            else:
+                act()
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
 
@@ -201,8 +207,9 @@ class Crew:
         """
         if self._holding and isinstance(command, ON_TO_A_RUNWAY):
             raise Unable("unable, holding because of a warning")
-        why = self._envelope.unflyable(command)
-        if why is not None:
+        if (why := refusal_in_phase(self.body, command)) is not None:
+            raise Unable(why)
+        if (why := self._envelope.unflyable(command)) is not None:
             raise Unable(f"unable {why}")
         if isinstance(command, BehindCommand):
             self._plan(command.command)
@@ -211,7 +218,26 @@ class Crew:
         if act is not None:
             return act
         act = self._ground.plan(command)
-        return None if act is None else partial(self._move_on_ground, act, command)
+        if act is not None:
+            return partial(self._move_on_ground, act, command)
+        act = self._approaches.plan(command)
+        if act is not None:
+            return act
+        act = self._en_route.plan(command)
+        return None if act is None else partial(self._do_en_route, act, command)
+
+    def _do_en_route(self, act: Act, command: Command) -> None:
+        act()
+        if isinstance(command, DirectCommand):
+            self._leave_approach(self.body.en_route.resume_route)
+            self._has_route = True
+        elif isinstance(command, HoldAtCommand):
+            self._leave_approach(partial(self._carry_out, command))
+
+    def _leave_approach(self, return_lateral: Callable[[], None]) -> None:
+        """Take no further step to a runway, and remember the way to go back to after advisories."""
+        self.runway_operations.forget()
+        self._return_lateral = return_lateral
 
     def _move_on_ground(self, act: Act, command: Command) -> None:
         act()
@@ -229,16 +255,15 @@ class Crew:
                 )
             case TrackCommand(track_deg=track):
                 aircraft.en_route.hold_track(track * DEGREE)
-                self._return_lateral = partial(aircraft.en_route.hold_track, track * DEGREE)
+                self._leave_approach(partial(aircraft.en_route.hold_track, track * DEGREE))
             case TurnCommand(degrees=degrees):
                 track = aircraft.state.track_rad + degrees * DEGREE
                 aircraft.en_route.turn_by(degrees * DEGREE)
-                self._return_lateral = partial(aircraft.en_route.hold_track, track)
-            case SpeedCommand(cas_kt=speed):
-                aircraft.en_route.hold_speed(speed * KNOT)
+                self._leave_approach(partial(aircraft.en_route.hold_track, track))
             case RouteCommand(route=route):
                 self.fly_route([self._site.place(position) for position in route])
-            case ResumeRouteCommand() if self._has_route:
+                self.runway_operations.forget()
+            case ResumeRouteCommand():
                 aircraft.en_route.resume_route()
                 self._return_lateral = aircraft.en_route.resume_route
             case DriftDownCommand():

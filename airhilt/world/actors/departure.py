@@ -18,10 +18,11 @@ from airhilt.commands import (
 )
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import Place
-from airhilt.units import FOOT, KNOT
+from airhilt.units import DEGREE, FOOT, KNOT
 from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.final_approach import FinalApproach
 from airhilt.world.actors.ground_operations import Act, GroundOperations
-from airhilt.world.actors.runway_operations import FinalApproach, RunwayOperations
+from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.actors.runway_turns import RunwayTurns
 from airhilt.world.actors.taxi_paths import hold_beside
 from airhilt.world.flight.aircraft import Aircraft
@@ -62,8 +63,8 @@ class Departure:
         match command:
             case LineUpCommand(runway=runway):
                 return self._plan_line_up(runway)
-            case TakeOffCommand(runway=runway, climb_to_ft=altitude):
-                return self._plan_take_off(runway, altitude * FOOT)
+            case TakeOffCommand():
+                return self._plan_take_off(command)
             case CancelTakeoffCommand():
                 return self._plan_cancel()
             case HoldPositionCommand() if self._aircraft.phase == "takeoff_roll":
@@ -175,12 +176,12 @@ class Departure:
 
         return taxi
 
-    def _plan_take_off(self, runway: str, climb_to_m: float) -> Act:
-        line_up = self._plan_line_up(runway)
+    def _plan_take_off(self, command: TakeOffCommand) -> Act:
+        line_up = self._plan_line_up(command.runway)
 
         def take_off() -> None:
             line_up()
-            self._next = partial(self._roll_once_lined_up, runway, climb_to_m)
+            self._next = partial(self._roll_once_lined_up, command)
             self.attend()
 
         return take_off
@@ -212,7 +213,8 @@ class Departure:
         self._plan_entry(self._hold(runway), runway)()
         return True
 
-    def _roll_once_lined_up(self, runway: str, climb_to_m: float) -> bool:
+    def _roll_once_lined_up(self, command: TakeOffCommand) -> bool:
+        runway, track_deg = command.runway, command.track_deg
         end = self._site.runway(runway)
         if self._aircraft.phase == "standing" and not self._is_lined_up(end):
             if self._ground.has_arrived:
@@ -220,7 +222,9 @@ class Departure:
             return False
         if self._aircraft.phase not in ("lined_up", "standing"):
             return False
-        self._aircraft.procedures.take_off(self._runways.bind(runway), climb_to_m)
+        track = () if track_deg is None else (track_deg * DEGREE,)
+        climb_to_m = command.climb_to_ft * FOOT
+        self._aircraft.procedures.take_off(self._runways.bind(runway), climb_to_m, *track)
         self._ground.forget()
         return True
 

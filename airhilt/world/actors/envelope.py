@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from airhilt.commands import (
     AltitudeCommand,
     Command,
+    CrossFixCommand,
     EmergencyDescentCommand,
     GoAroundCommand,
     SpeedCommand,
@@ -34,11 +35,15 @@ class Envelope:
                 return self._speed(cas_kt)
             case AltitudeCommand(altitude_ft=altitude_ft, vertical_rate_fpm=rate_fpm):
                 is_climb = altitude_ft * FOOT >= self.aircraft.state.altitude_m
-                return self._altitude(altitude_ft) or self._rate(rate_fpm, is_climb)
+                return self._altitude(altitude_ft) or self.rate(rate_fpm, is_climb)
             case (
                 EmergencyDescentCommand(altitude_ft=altitude_ft)
                 | TakeOffCommand(climb_to_ft=altitude_ft)
-                | GoAroundCommand(climb_to_ft=altitude_ft)
+                | CrossFixCommand(altitude_ft=altitude_ft)
+            ):
+                return self._altitude(altitude_ft)
+            case GoAroundCommand(climb_to_ft=altitude_ft) if (
+                altitude_ft * FOOT > self.aircraft.state.altitude_m
             ):
                 return self._altitude(altitude_ft)
         return None
@@ -72,7 +77,8 @@ class Envelope:
             return None
         return f"{altitude_ft:g} ft: a {kind.name} flies at {lowest_ft} to {ceiling_ft} ft here"
 
-    def _rate(self, rate_fpm: float | None, is_climb: bool) -> str | None:
+    def rate(self, rate_fpm: float | None, is_climb: bool) -> str | None:
+        """Return why the aircraft cannot climb or descend at a rate; None if it can."""
         kind, speeds = self.aircraft.kind, self.aircraft.kind.speeds
         greatest_fpm = (
             speeds.maximum_climb_rate_fpm if is_climb else speeds.maximum_descent_rate_fpm

@@ -1,4 +1,4 @@
-"""Runway operations of a crew: approach, land, leave the runway, go around."""
+"""Runway operations of a crew: its landing clearance, the landing, the way off, the go-around."""
 
 from __future__ import annotations
 
@@ -6,20 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from airhilt.commands import (
-    Command,
-    GoAroundCommand,
-    LandCommand,
-    RouteCommand,
-    SideStepCommand,
-    TrackCommand,
-    TurnCommand,
-    VacateCommand,
-)
+from airhilt.commands import Command, LandCommand, VacateCommand
 from airhilt.geodesy.wgs84 import Place
-from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, wrap_angle
+from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.final_approach import FinalApproach
 from airhilt.world.actors.taxi_paths import (
+    BRAKING_M_S2,
     EXIT_SPEED_M_S,
     FIRM_BRAKING_M_S2,
     TOUCHDOWN_M,
@@ -31,7 +24,7 @@ from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
 
 if TYPE_CHECKING:
-    from airhilt.world.surface.layout import Exit, Layout
+    from airhilt.world.surface.layout import Exit
 
 DECISION_HEIGHT_M = 200.0 * FOOT
 """Height in m at which a crew without a landing clearance goes around (category I minimum)."""
@@ -42,45 +35,31 @@ LEAST_CLIMB_M = 500.0 * FOOT
 TOO_HIGH_M = 150.0 * FOOT
 """Height over the threshold from which a landing is broken off, in m. The normal height is 50 ft
 (ICAO Annex 10 volume I, 3.1.5.1.4)."""
+LOW_APPROACH_M = 100.0 * FOOT
+"""Height in m from which a low approach climbs away; assumed."""
+TAKEOFF_M_S2 = 1.5
+"""Acceleration of a takeoff roll, in m/s2; assumed: less than that of each type that ships."""
+GO_AGAIN_S = 3.0
+"""Time between the touchdown and the takeoff thrust of a touch-and-go, in s; assumed."""
+ROTATE_S = 3.0
+"""Time from rotation speed until the wheels leave the runway, in s; assumed."""
+APPROACHING = ("approach", "orbit", "glide", "flare")
+"""Phases in which an approach is flown."""
 CAPTURE_ANGLE_RAD = math.radians(40.0)
 """Greatest angle to the final approach course at which it is joined, in rad."""
-Act = Callable[[], None]
 CAPTURE_DISTANCE_M = 0.5 * NAUTICAL_MILE
 """Greatest distance from the extended centre line at which the final approach is joined, in m."""
 
 
-class FinalApproach:
-    """Final approach of a runway, in the airport's plane."""
-
-    def __init__(self, airport: Layout, runway: RunwayEnd) -> None:
-        self.runway = runway
-        self._frame = airport.local_frame
-        self._east, self._north = airport.local_frame.to_local(runway.threshold)
-        self._sin, self._cos = math.sin(runway.course_rad), math.cos(runway.course_rad)
-
-    def before_m(self, here: Place) -> float:
-        """Return the distance to the threshold along the approach, negative beyond it."""
-        east, north = self._off_threshold(here)
-        return -(east * self._sin + north * self._cos)
-
-    def right_m(self, here: Place) -> float:
-        """Return the distance to the right of the approach."""
-        east, north = self._off_threshold(here)
-        return east * self._cos - north * self._sin
-
-    def angle_rad(self, track_rad: float) -> float:
-        """Return the angle between a track and the approach, positive to the right."""
-        return wrap_angle(track_rad - self.runway.course_rad)
-
-    def _off_threshold(self, here: Place) -> tuple[float, float]:
-        east, north = self._frame.to_local(here)
-        return east - self._east, north - self._north
+Act = Callable[[], None]
+"""What a command does, once it is known that it can be done."""
 
 
 class RunwayOperations:
-    """Carries out the commands of one crew about approaches and landings.
+    """Lands on the runway that one crew is bound for if it is cleared, and goes around if not.
 
-    What cannot be carried out raises Unable, ValueError or ScenarioError.
+    `Approaches` says which way it flies there. What cannot be carried out raises Unable, ValueError
+    or ScenarioError.
     """
 
     def __init__(self, aircraft: Aircraft, site: ScenarioSite) -> None:
@@ -88,7 +67,8 @@ class RunwayOperations:
         """Final approach of the runway that the crew is going to use."""
         self._aircraft = aircraft
         self._site = site
-        self._cleared_to_land = False
+        self._cleared: LandCommand | None = None
+        """Landing clearance."""
         self._exit_path: Sequence[Place] = ()
         """Way off the runway after the landing."""
         self._next: Callable[[], bool] | None = None
@@ -102,6 +82,11 @@ class RunwayOperations:
         """
         return None if self._final is None else self._final.runway.ident
 
+    @property
+    def final(self) -> FinalApproach | None:
+        """Final approach of that runway."""
+        return self._final
+
     def bind(self, runway: str) -> RunwayEnd:
         """Set the runway that the crew is going to use; return it."""
         end = self._site.runway(runway)
@@ -110,32 +95,73 @@ class RunwayOperations:
 
     # --- commands -----------------------------------------------------------------------------
 
-    def carry_out(self, command: Command) -> bool:
-        """Carry out a command; return False for one that is not about a landing."""
-        match command:
-            case LandCommand():
-                self._land(command)
-            case GoAroundCommand() if self._aircraft.phase == "go_around":
-                pass  # It does already.
-            case GoAroundCommand(climb_to_ft=altitude):
-                self._break_off(altitude * FOOT)
-            case SideStepCommand(runway=runway):
-                self._side_step(runway)
-            case RouteCommand() | TrackCommand() | TurnCommand():
-                self._next = None
-                return False
-            case _:
-                return False
-        return True
-
     def forget(self) -> None:
         """Take no further step of what was begun."""
         self._next = None
 
+    def wait(self, step: Callable[[], bool]) -> None:
+        """Try a step several times a second until it returns True."""
+        self._next = step
+
     def begin_on_final(self, runway: str) -> None:
         """Fly the approach from where the aircraft is; it still needs a clearance to land."""
         self._aircraft.procedures.land(self.bind(runway))
-        self._next = self._go_around_uncleared
+
+    def begin_approach(
+        self, runway: str, fly: Callable[[RunwayEnd, Sequence[Place]], None]
+    ) -> None:
+        """Fly the approach to a runway; a clearance to land there stays, one for another ends."""
+        end = self.bind(runway)
+        self._next = None
+        if self._cleared is None or self._cleared.runway != end.ident:
+            self._cleared, self._exit_path = None, ()
+        fly(end, self._exit_path)
+
+    def plan_clearance(self, command: LandCommand) -> Act:
+        """Return what takes a landing clearance for the runway that is approached."""
+        path, runway = self._path_off(command), self._site.runway(command.runway).ident
+
+        def take() -> None:
+            self.bind(runway)
+            self._exit_path = path
+            self._cleared = command.model_copy(update={"runway": runway})
+
+        return take
+
+    def plan_leaving(self, command: LandCommand) -> Act:
+        """Return what takes a landing clearance on the way to its runway."""
+        take = self.plan_clearance(command)
+
+        def clear() -> None:
+            take()
+            self._aircraft.procedures.leave_at(self._exit_path)
+
+        return clear
+
+    def plan_landing(self, command: LandCommand) -> Act:
+        """Return what takes a landing clearance, flies to the final approach, and joins it."""
+        take = self.plan_clearance(command)
+        via = [self._site.place(position) for position in command.via]
+        threshold = self._site.runway(command.runway).threshold
+
+        def land() -> None:
+            take()
+            if via:
+                self._aircraft.en_route.fly_route([*via, threshold])
+            self._next = self._land_once_on_final
+            if not via:
+                self.attend()
+
+        return land
+
+    def break_off(self, climb_to_m: float) -> None:
+        """Go around, without a clearance to land any more."""
+        self._aircraft.procedures.go_around(climb_to_m)
+        self.leave()
+
+    def leave(self) -> None:
+        """Be bound for no runway any more."""
+        self._cleared = self._next = self._final = None
 
     def attend(self) -> None:
         """Take the next step of an operation if it is due; a landing may become a go-around."""
@@ -145,9 +171,23 @@ class RunwayOperations:
         phase = self._aircraft.phase
         has_left = phase == "en_route" and self._next is None
         if phase in ("climb_out", "vacate") or has_left:
-            self._final = None
-        elif phase == "glide" and self._final is not None:
-            self._go_around_if_too_high(self._final)
+            self._final = self._cleared = None
+        elif self._final is not None:
+            self._attend_landing(self._final, phase)
+
+    def _attend_landing(self, final: FinalApproach, phase: str) -> None:
+        then = "full_stop" if self._cleared is None else self._cleared.then
+        if phase in ("glide", "flare"):
+            self._go_around_uncleared(final)
+            if then == "low_approach" and self._aircraft.state.height_agl_m < LOW_APPROACH_M:
+                self.go_around()
+        if phase == "glide":
+            self._go_around_if_too_high(final)
+        elif phase == "rollout" and then == "touch_and_go":
+            self._aircraft.procedures.take_off_again(self.usual_climb_m())
+        elif phase == "standing" and then == "stop_and_go":
+            self._cleared = None
+            self._aircraft.procedures.take_off(final.runway, self.usual_climb_m())
 
     # --- the way off the runway -----------------------------------------------------------------
 
@@ -159,7 +199,7 @@ class RunwayOperations:
         phase, final = self._aircraft.phase, self._final
         if not isinstance(command, VacateCommand) or final is None:
             return None
-        if phase in ("glide", "flare", "rollout"):
+        if phase in ("approach", "orbit", "glide", "flare", "rollout"):
             begin = self._aircraft.procedures.leave_at
         elif self._next is not None and not self._aircraft.on_ground:
             begin = None
@@ -197,11 +237,15 @@ class RunwayOperations:
     def go_around(self) -> bool:
         """Break off the approach; return whether there was one."""
         aircraft = self._aircraft
-        if aircraft.phase not in ("glide", "flare") or aircraft.on_ground:
+        if aircraft.phase not in APPROACHING or aircraft.on_ground:
             return False
-        usual_m = self._site.ground_m + GO_AROUND_CLIMB_M
-        self._break_off(max(usual_m, aircraft.state.altitude_m + LEAST_CLIMB_M))
+        self.break_off(self.usual_climb_m())
         return True
+
+    def usual_climb_m(self) -> float:
+        """Return the altitude that a go-around climbs to where none was told, in m."""
+        usual_m = self._site.ground_m + GO_AROUND_CLIMB_M
+        return max(usual_m, self._aircraft.state.altitude_m + LEAST_CLIMB_M)
 
     # --- steps --------------------------------------------------------------------------------
 
@@ -209,29 +253,32 @@ class RunwayOperations:
         state = self._aircraft.state
         return state.latitude_rad, state.longitude_rad
 
-    def _land(self, command: LandCommand) -> None:
-        aircraft, site = self._aircraft, self._site
-        if aircraft.on_ground:
-            raise Unable("unable, on the ground")
-        runway = site.runway(command.runway)
-        bound = self.bound_runway
-        on_final = aircraft.phase in ("glide", "flare") and not command.via
-        if on_final and bound not in (None, runway.ident):
-            raise Unable(f"unable, on final approach to runway {bound}")
-        exit_path: Sequence[Place] = ()
-        if command.vacate:
-            speed_m_s = aircraft.kind.speeds.approach_kt * KNOT
-            way_out = exit_for(site, runway, speed_m_s, command.exit)
-            exit_path = way_out.path if way_out else ()
-        self.bind(command.runway)
-        self._exit_path = exit_path
-        self._cleared_to_land = True
-        if command.via:
-            via = [site.place(position) for position in command.via]
-            aircraft.en_route.fly_route([*via, runway.threshold])
-        self._next = self._land_once_on_final
-        if not command.via:
-            self.attend()
+    def _path_off(self, command: LandCommand) -> Sequence[Place]:
+        """Return the way off the runway after a landing, or raise `Unable`."""
+        runway = self._site.runway(command.runway)
+        speed_m_s = self._aircraft.kind.speeds.approach_kt * KNOT
+        if command.then in ("touch_and_go", "stop_and_go"):
+            self._require_runway_for(command, runway, speed_m_s)
+        if not command.vacate or command.then != "full_stop":
+            return ()
+        way_out = exit_for(self._site, runway, speed_m_s, command.exit)
+        return way_out.path if way_out else ()
+
+    def _require_runway_for(
+        self, command: LandCommand, runway: RunwayEnd, speed_m_s: float
+    ) -> None:
+        """Raise `Unable` unless a runway is long enough to land and take off on."""
+        stops = command.then == "stop_and_go"
+        rolls_m = speed_m_s**2 / (2.0 * BRAKING_M_S2) if stops else GO_AGAIN_S * speed_m_s
+        needed_m = TOUCHDOWN_M + rolls_m + self.takeoff_roll_m(0.0 if stops else speed_m_s)
+        if needed_m > runway.length_m - runway.displaced_m:
+            raise Unable(f"unable, runway {runway.ident} is too short for us")
+
+    def takeoff_roll_m(self, from_m_s: float) -> float:
+        """Return the runway in m that a takeoff needs from a speed."""
+        rotate_m_s = self._aircraft.kind.speeds.rotate_kt * KNOT
+        rolls_m = max(rotate_m_s**2 - from_m_s**2, 0.0) / (2.0 * TAKEOFF_M_S2)
+        return rolls_m + ROTATE_S * rotate_m_s
 
     def _land_once_on_final(self) -> bool:
         final, state = self._final, self._aircraft.state
@@ -246,27 +293,16 @@ class RunwayOperations:
         self._aircraft.procedures.land(final.runway, self._exit_path)
         return True
 
-    def _go_around_uncleared(self) -> bool:
-        if self._cleared_to_land or self._aircraft.phase not in ("glide", "flare"):
-            return True
-        if self._aircraft.state.height_agl_m > DECISION_HEIGHT_M:
-            return False
-        if not self.go_around():
-            return True
-        raise Unable("unable, no clearance to land: going around")
+    def _go_around_uncleared(self, final: FinalApproach) -> None:
+        """Break off an approach at the minimum without a clearance to land."""
+        is_cleared = self._cleared is not None and self._cleared.runway == final.runway.ident
+        if is_cleared or self._aircraft.state.height_agl_m > DECISION_HEIGHT_M:
+            return
+        if self.go_around():
+            raise Unable("unable, no clearance to land: going around")
 
     def _go_around_if_too_high(self, final: FinalApproach) -> None:
         """Break off an approach that has crossed the threshold too high."""
         too_high = self._aircraft.state.height_agl_m > TOO_HIGH_M
         if too_high and final.before_m(self._here()) < 0.0 and self.go_around():
             raise Unable("unable, too high over the threshold: going around")
-
-    def _break_off(self, climb_to_m: float) -> None:
-        self._cleared_to_land = False
-        self._next = None
-        self._aircraft.procedures.go_around(climb_to_m)
-        self._final = None
-
-    def _side_step(self, runway: str) -> None:
-        self._aircraft.procedures.side_step(self._site.runway(runway))
-        self.bind(runway)

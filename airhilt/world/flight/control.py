@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT_PER_MINUTE, KNOT, wrap_angle
-from airhilt.world.flight.guidance import GuidanceModes, LateralMode, Route
+from airhilt.world.flight.curves import Curve
+from airhilt.world.flight.guidance import CurvedPath, GuidanceModes, LateralMode, Route
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.taxi import Standing
@@ -61,6 +63,14 @@ class FlightControl:
         self._route = self.modes.route(legs)
         self.commanded().lateral = self._route
 
+    def fly_curve(self, curve: Curve, *, and_back: bool = False) -> None:
+        """Fly a curve, then straight on; or then ``and_back`` to the track or route from before."""
+        modes = self.commanded()
+        before = modes.lateral
+        if isinstance(before, CurvedPath):
+            before = before.after()
+        modes.lateral = self.modes.curve(curve, before if and_back else None)
+
     def resume_route(self) -> None:
         """Go back to the route that was left for a track or a heading, intercepting its leg."""
         if self._route is None:
@@ -103,6 +113,17 @@ class FlightControl:
         slowest, greatest = self.modes.speed_limits_m_s(self.state.altitude_m)
         accepted = min(max(calibrated_airspeed_m_s, slowest), greatest)
         self.commanded().speed = self.modes.airspeed(accepted)
+
+    @property
+    def waypoints_ahead(self) -> tuple[Place, ...]:
+        """Places to which the route that is flown still leads; none without a route."""
+        lateral = self.guidance.lateral
+        return lateral.ends_ahead if isinstance(lateral, Route) else ()
+
+    @property
+    def left_route(self) -> tuple[Place, ...]:
+        """Places to which the last route leads, flown or left."""
+        return () if self._route is None else self._route.ends_ahead
 
     @property
     def on_ground(self) -> bool:

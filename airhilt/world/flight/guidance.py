@@ -12,11 +12,12 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
-from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
+from airhilt.geodesy.wgs84 import MEAN_RADIUS_M, Place
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, STANDARD_GRAVITY, wrap_angle
 from airhilt.world.flight import standard_atmosphere
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.autopilot import within
+from airhilt.world.flight.curves import Curve
 from airhilt.world.flight.route import SHARPEST_TURN_RAD, Arc, Guide, Leg, turn_between
 from airhilt.world.flight.state import AircraftState, InitialCondition
 
@@ -84,7 +85,6 @@ class Route:
     def __init__(self, legs: tuple[Leg, ...], gain: float, bank_limit_rad: float) -> None:
         self._legs = legs
         self._gain = gain
-        self._cross_track_gain = CROSS_TRACK_PART * gain
         self._arc_acceleration = STANDARD_GRAVITY * math.tan(ARC_BANK_PART * bank_limit_rad)
         self._index = 0
         self._arc: Arc | None = None
@@ -95,6 +95,11 @@ class Route:
     def leg(self) -> Leg:
         """Leg that is flown, or that the present arc leads to."""
         return self._legs[self._index]
+
+    @property
+    def ends_ahead(self) -> tuple[Place, ...]:
+        """Ends of the present leg and of those behind it; none after the last."""
+        return () if self._end is not None else tuple(leg.end for leg in self._legs[self._index :])
 
     def turn_rate(self, state: AircraftState) -> float:
         """Return the commanded rate of turn."""
@@ -109,16 +114,12 @@ class Route:
             turn_rate = guide.turn_rate
             if self._arc.to_go_m(state) < ROLL_LEAD_S * speed:
                 turn_rate = 0.0
-            return turn_rate + self._correction(guide, state, speed)
-        return self._correction(self.leg.guide(state), state, speed)
+            return turn_rate + _correction(guide, state, self._gain)
+        return _correction(self.leg.guide(state), state, self._gain)
 
     def rejoin(self) -> None:
         """Intercept the present leg, not the arc into it."""
         self._arc = None
-
-    def _correction(self, guide: Guide, state: AircraftState, speed: float) -> float:
-        offset = -within(self._cross_track_gain * guide.cross_track_m / speed, INTERCEPT_ANGLE)
-        return self._gain * wrap_angle(guide.course_rad + offset - state.track_rad)
 
     def _sequence(self, state: AircraftState, speed: float) -> None:
         """Switch to the next arc or leg if it is due at this ground speed."""
@@ -153,6 +154,35 @@ class Route:
         if 1.0 * DEGREE < turn < SHARPEST_TURN_RAD:
             self._lead_factor = math.tan(turn / 2.0) / self._arc_acceleration
             self._longest_lead = 0.45 * min(leg.length_m, after.length_m)
+
+
+class CurvedPath:
+    """Flies a curve, then what follows it; without that, straight on. The gain is as of `Route`."""
+
+    def __init__(self, curve: Curve, gain: float, then: LateralMode | None = None) -> None:
+        self.curve = curve
+        self._gain = gain
+        self._then = then
+        self._is_over = False
+
+    def turn_rate(self, state: AircraftState) -> float:
+        """Return the commanded rate of turn."""
+        if self._then is not None and self._is_over:
+            return self._then.turn_rate(state)
+        guide = self.curve.guide(state, ROLL_LEAD_S)
+        self._is_over = self.curve.to_go_m <= 0.0
+        return guide.turn_rate + _correction(guide, state, self._gain)
+
+    def after(self) -> LateralMode:
+        """Return what is flown once the curve is over."""
+        return self if self._then is None else self._then
+
+
+def _correction(guide: Guide, state: AircraftState, gain: float) -> float:
+    """Return the turn rate that leads back to a path, by a gain in 1/s."""
+    speed = max(state.ground_speed_m_s, 1.0)
+    offset = within(CROSS_TRACK_PART * gain * guide.cross_track_m / speed, INTERCEPT_ANGLE)
+    return gain * wrap_angle(guide.course_rad - offset - state.track_rad)
 
 
 class Altitude:
@@ -205,6 +235,10 @@ class GuidanceModes:
         """Return the mode that flies legs."""
         gains = self.kind.gains
         return Route(legs, gains.guidance.course_per_s, gains.roll.bank_limit_deg * DEGREE)
+
+    def curve(self, curve: Curve, then: LateralMode | None = None) -> CurvedPath:
+        """Return the mode that flies a curve, and what follows it."""
+        return CurvedPath(curve, self.kind.gains.guidance.course_per_s, then)
 
     def airspeed(self, calibrated_airspeed_m_s: float) -> Airspeed:
         """Return the mode that holds an airspeed, up to the type's greatest Mach number."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import KNOT
 from airhilt.world.flight.control import FlightControl
+from airhilt.world.flight.curves import Curve
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final, require_side_step
 from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
@@ -17,6 +18,7 @@ from airhilt.world.flight.procedures.takeoff import (
     require_lined_up,
 )
 from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi, Way
+from airhilt.world.flight.procedures.visual import Approach, Orbit
 from airhilt.world.flight.taxi_path import TaxiPath
 from airhilt.world.surface.runway import RunwayEnd
 
@@ -79,14 +81,20 @@ class ProcedureCommands:
 
     # --- takeoff ----------------------------------------------------------------------------
 
-    def take_off(self, runway: RunwayEnd, climb_to_m: float) -> None:
-        """Take off on the runway where the aircraft is, climb on its course, and level off."""
+    def take_off(
+        self, runway: RunwayEnd, climb_to_m: float, track_rad: float | None = None
+    ) -> None:
+        """Take off on the runway where the aircraft is, climb on its course, and level off.
+
+        With a track, turn to it once that is safe.
+        """
         control = self._control
         control.require_on_ground("take_off", FASTEST_TAXI_M_S)
         line = Final(runway, control.systems.kind)
         require_lined_up(control.state, line)
         control.require_climb(climb_to_m)
-        control.guidance = control.climb_on(line, climb_to_m)
+        after = line if track_rad is None else control.modes.track(track_rad)
+        control.guidance = control.climb_on(after, climb_to_m)
         control.phase = TakeoffRoll(control.systems, line, control.guidance)
 
     def reject_takeoff(self) -> None:
@@ -113,27 +121,107 @@ class ProcedureCommands:
     def leave_at(self, exit_path: Sequence[Place]) -> None:
         """Leave the runway of the landing by another exit path than before."""
         phase = self._control.phase
-        if not isinstance(phase, Glide | Flare | Rollout):
-            raise ValueError(f"leave_at in phase {phase.name}; expected glide, flare or rollout")
+        if not isinstance(phase, Approach | Orbit | Glide | Flare | Rollout):
+            raise ValueError(f"leave_at in phase {phase.name}; expected an approach or a rollout")
         phase.leave_at(exit_path)
 
-    def side_step(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
-        """Leave the approach that is flown for that of another runway, with its exit path."""
+    def approach(
+        self,
+        runway: RunwayEnd,
+        curve: Curve,
+        altitude_m: float,
+        exit_path: Sequence[Place] = (),
+    ) -> None:
+        """Fly a curve that ends at the threshold of a runway, and land there.
+
+        The altitude is held until the glide path along the curve is below it.
+        """
+        control = self._control
+        control.require_airborne("approach")
+        systems, modes = control.systems, control.modes
+        final = Final(runway, systems.kind)
+        path, level = modes.curve(curve), modes.altitude_at_usual_rate(altitude_m)
+        before = control.phase
+        is_configured = isinstance(before, Approach | Orbit | Glide) and before.is_configured
+        if not is_configured:
+            systems.airframe.clean_up()
+        control.phase = Approach(
+            systems, final, exit_path, path, level, is_configured=is_configured
+        )
+        control.guidance = EnRoute(
+            systems, path, level, modes.airspeed(systems.kind.speeds.approach_kt * KNOT)
+        )
+
+    @property
+    def is_configured(self) -> bool:
+        """True on an approach if gear and flaps are lowered for the landing."""
+        phase = self._control.phase
+        return isinstance(phase, Flare) or (
+            isinstance(phase, Approach | Orbit | Glide) and phase.is_configured
+        )
+
+    def hold_approach_speed(self, calibrated_airspeed_m_s: float) -> None:
+        """Fly another airspeed on the approach, until gear and flaps are lowered."""
+        phase = self._control.phase
+        if not isinstance(phase, Approach | Orbit | Glide):
+            raise ValueError(f"hold_approach_speed in phase {phase.name}; expected an approach")
+        phase.hold_speed(calibrated_airspeed_m_s)
+
+    def orbit(self, curve: Curve) -> None:
+        """Fly a curve at the present altitude and airspeed, and go on with the approach."""
+        control = self._control
+        phase, state, modes = control.phase, control.state, control.modes
+        if isinstance(phase, Orbit):
+            phase = phase.then
+        if not isinstance(phase, Glide | Approach):
+            raise ValueError(f"orbit in phase {phase.name}; expected an approach")
+        control.phase = Orbit(
+            control.systems,
+            modes.curve(curve),
+            modes.altitude_at_usual_rate(state.altitude_m),
+            modes.airspeed(state.calibrated_airspeed_m_s),
+            phase,
+        )
+
+    def require_side_step(self, runway: RunwayEnd) -> None:
+        """Raise ValueError unless `side_step` is possible."""
         phase = self._control.phase
         if not isinstance(phase, Glide):
             raise ValueError(f"side_step in phase {phase.name}; expected glide")
-        final = Final(runway, self._control.systems.kind)
-        require_side_step(self._control.state, final)
-        self._approach(final, exit_path)
+        require_side_step(self._control.state, Final(runway, self._control.systems.kind))
+
+    def side_step(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
+        """Leave the approach that is flown for that of another runway, with its exit path."""
+        self.require_side_step(runway)
+        self._approach(Final(runway, self._control.systems.kind), exit_path)
 
     def go_around(self, climb_to_m: float) -> None:
         """Break off the approach: climb on the runway's course to an altitude, and level off."""
         control = self._control
-        if not isinstance(control.phase, Glide | Flare) or control.on_ground:
-            raise ValueError(f"go_around in phase {control.phase.name}; expected glide or flare")
+        phase = control.phase
+        if not isinstance(phase, Approach | Orbit | Glide | Flare) or control.on_ground:
+            raise ValueError(f"go_around in phase {phase.name}; expected glide or flare")
         control.require_climb(climb_to_m)
-        control.guidance = control.climb_on(control.phase.final, climb_to_m)
-        control.phase = GoAround(control.systems, control.guidance)
+        control.guidance = control.climb_on(phase.final, climb_to_m)
+        control.phase = GoAround(
+            control.systems, control.guidance, may_touch=isinstance(phase, Flare)
+        )
+
+    def take_off_again(self, climb_to_m: float) -> None:
+        """Take off from the rollout after a landing, climb on the runway's course, and level off.
+
+        Whether the runway is long enough is for the caller to know.
+        """
+        control = self._control
+        phase = control.phase
+        if not isinstance(phase, Rollout):
+            raise ValueError(f"take_off_again in phase {phase.name}; expected rollout")
+        control.require_climb(climb_to_m)
+        airframe = control.systems.airframe
+        airframe.set_speed_brakes(0.0)
+        airframe.set_ground_spoilers(0.0)
+        control.guidance = control.climb_on(phase.final, climb_to_m)
+        control.phase = TakeoffRoll(control.systems, phase.final, control.guidance)
 
     def _approach(self, final: Final, exit_path: Sequence[Place]) -> None:
         """Fly the final approach, from the present altitude."""

@@ -71,7 +71,7 @@ class Plane:
             height_agl_m = self.height_m
             altitude_m = self.height_m
             track_rad = heading_rad = heading
-            ground_speed_m_s = speed
+            ground_speed_m_s = true_airspeed_m_s = speed
             calibrated_airspeed_m_s = speed
 
         return Now
@@ -94,6 +94,21 @@ class Plane:
     def land(self, runway: RunwayEnd, exit_path: tuple[Any, ...] = ()) -> None:
         self._tell("land", runway.ident, bool(exit_path))
         self.phase = "glide"
+
+    @property
+    def waypoints_ahead(self) -> tuple[Any, ...]:
+        return ()
+
+    left_route = waypoints_ahead
+
+    def require_side_step(self, runway: RunwayEnd) -> None:
+        raise ValueError(f"side_step to runway {runway.ident}; expected a parallel one")
+
+    def approach(
+        self, runway: RunwayEnd, curve: object, altitude_m: float, exit_path: object
+    ) -> None:
+        self._tell("approach", runway.ident)
+        self.phase = "approach"
 
     def leave_at(self, path: tuple[Any, ...]) -> None:
         self._tell("leave_at", path)
@@ -392,13 +407,16 @@ def test_after_a_go_around_it_needs_another_clearance_to_land() -> None:
     assert plane.names == ["land", "go_around"]
 
 
-def test_on_final_it_does_not_land_on_another_runway_unless_it_side_steps_or_circles() -> None:
-    _, crew = approaching(on_final(5_000.0))
-    with pytest.raises(Unable, match="on final approach to runway 01"):
+def test_cleared_to_land_on_another_runway_it_turns_there_or_refuses() -> None:
+    plane, crew = approaching(on_final(5_000.0))
+    tell(crew, "land", runway="33")
+    assert plane.names == ["land", "approach"]
+    assert crew.bound_runway == "33"
+    plane, crew = approaching(on_final(2_000.0, 100.0))
+    with pytest.raises(Unable, match="unable, too low to turn to runway 33"):
         tell(crew, "land", runway="33")
-    assert crew.runway_operations.bound_runway == "01"
-    tell(crew, "land", runway="33", via=[{"type": "runway", "runway": "33", "along_m": -5_000}])
-    assert crew.runway_operations.bound_runway == "33"
+    assert plane.names == ["land"]
+    assert crew.bound_runway == "01"
 
 
 def test_on_the_ground_it_is_unable_to_land() -> None:
@@ -444,24 +462,26 @@ def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land() -> 
     assert plane.names == ["fly_route", "land"]
 
 
-def test_the_final_approach_is_joined_near_it_and_about_along_it(subtests: pytest.Subtests) -> None:
-    for away_m, right_m, heading_deg, lands in [
-        (10_000.0, 0.0, 355.5, True),
-        (10_000.0, 0.0, 33.0, True),
-        (10_000.0, 0.0, 37.0, False),
-        (10_000.0, 900.0, 340.0, True),
-        (10_000.0, 950.0, 340.0, False),
-        (10_000.0, 0.0, 175.5, False),
-        (-100.0, 0.0, 355.5, False),
+def test_cleared_to_land_it_joins_the_final_approach_or_waits_until_it_can_or_turns_there(
+    subtests: pytest.Subtests,
+) -> None:
+    for away_m, right_m, heading_deg, does in [
+        (10_000.0, 0.0, 355.5, ["land"]),
+        (10_000.0, 0.0, 33.0, ["land"]),
+        (10_000.0, 0.0, 37.0, ["approach"]),
+        (10_000.0, 900.0, 340.0, ["land"]),
+        (10_000.0, 950.0, 340.0, []),
+        (10_000.0, 0.0, 175.5, ["approach"]),
+        (-100.0, 0.0, 355.5, ["approach"]),
     ]:
-        with subtests.test(str((away_m, right_m, heading_deg, lands))):
+        with subtests.test(str((away_m, right_m, heading_deg))):
             place = kdca().place(
                 RunwayPosition(type="runway", runway="01", along_m=-away_m, offset_m=right_m)
             )
             plane = Plane("en_route", place, 500.0, 150.0, heading_deg)
             crew = crew_of(plane)
             tell(crew, "land", runway="01")
-            assert plane.names == (["land"] if lands else [])
+            assert plane.names == does
             assert crew.runway_operations.bound_runway == "01"
 
 
@@ -609,11 +629,12 @@ def test_an_exit_told_before_the_final_approach_is_used_after_it() -> None:
     away = kdca().place(RunwayPosition(type="runway", runway="01", along_m=0.0, offset_m=-8000.0))
     plane = Plane("en_route", away, 500.0, 200.0, heading_deg=175.0)
     crew = crew_of(plane)
-    tell(crew, "land", runway="01", vacate=False)
+    via = [{"type": "runway", "runway": "01", "along_m": -13_000}]
+    tell(crew, "land", runway="01", via=via, vacate=False)
     tell(crew, "vacate", exit="N")
     plane.place, plane.heading_deg = on_final(10_000.0).place, 355.0
     crew.attend()
-    assert plane.told == [("land", "01", True)]
+    assert plane.told[1:] == [("land", "01", True)]
 
 
 def test_a_taxi_clearance_during_the_landing_roll_is_followed_after_the_runway_is_left() -> None:

@@ -67,19 +67,30 @@ class Final:
         offset = within(self._cross_track_gain * self.cross_track_m(state) / speed, INTERCEPT_ANGLE)
         return self._course_gain * wrap_angle(self.course_rad(state) - offset - state.track_rad)
 
-    def above_glide_path_m(self, state: AircraftState) -> float:
-        """Return how far above the glide path the wheels are."""
-        path = (self._aim - self.along_m(state)) * self._slope
+    def above_glide_path_m(self, state: AircraftState, to_go_m: float | None = None) -> float:
+        """Return how far above the glide path the wheels are.
+
+        The distance to the threshold is that along the final approach, or ``to_go_m`` along another
+        way.
+        """
+        path = (self._aim - (self.along_m(state) if to_go_m is None else -to_go_m)) * self._slope
         return state.altitude_m - self._wheels_at_threshold_m - path
 
     def glide_rate(self, state: AircraftState) -> float:
         """Return the vertical rate (m/s) of the glide path at the present ground speed."""
         return -self._slope * state.ground_speed_m_s
 
-    def vertical_rate(self, state: AircraftState) -> float:
-        """Return the vertical rate (m/s) that leads to the glide path and along it."""
-        correction = self._glide_gain * self.above_glide_path_m(state)
-        return self.glide_rate(state) - within(correction, GREATEST_CORRECTION_M_S)
+    def vertical_rate(self, state: AircraftState, to_go_m: float | None = None) -> float:
+        """Return the vertical rate (m/s) that leads to the glide path and along it.
+
+        The distance to the threshold is as of `above_glide_path_m`.
+        """
+        correction = self._glide_gain * self.above_glide_path_m(state, to_go_m)
+        glide_rate = self.glide_rate(state)
+        if correction < -GREATEST_CORRECTION_M_S:
+            # Far below the path it does not descend, however fast it flies.
+            return max(glide_rate + GREATEST_CORRECTION_M_S, 0.0)
+        return glide_rate - within(correction, GREATEST_CORRECTION_M_S)
 
     def require_reachable(self, state: AircraftState) -> None:
         """Raise ValueError unless the approach can be flown from here."""

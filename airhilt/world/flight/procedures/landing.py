@@ -55,7 +55,7 @@ class Glide(FlightPhase):
             kind.gains.guidance.altitude_per_s,
         )
         self._configure_m = kind.landing.configure_m
-        self._configured = False
+        self.is_configured = False
         self._airspeed = kind.speeds.minimum_clean_kt * KNOT
         self._captured = False
 
@@ -63,11 +63,15 @@ class Glide(FlightPhase):
         """Leave the runway by another path."""
         self.exit_path = exit_path
 
+    def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
+        """Fly another airspeed until gear and flaps are lowered."""
+        self._airspeed = calibrated_airspeed_m_s
+
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
         systems, final = self._systems, self.final
         flare = systems.kind.landing.flare
-        if not self._configured and -final.along_m(state) < self._configure_m:
+        if not self.is_configured and -final.along_m(state) < self._configure_m:
             self._configure()
         vertical_rate = final.vertical_rate(state)
         if not self._captured:
@@ -93,7 +97,7 @@ class Glide(FlightPhase):
         airframe.set_gear(1.0)
         airframe.set_flaps(kind.landing.flaps)
         self._airspeed = kind.speeds.approach_kt * KNOT
-        self._configured = True
+        self.is_configured = True
 
 
 class Flare(FlightPhase):
@@ -161,6 +165,11 @@ class Rollout(FlightPhase):
         systems.ground.reset(systems.autopilot.steady_elevator())
         systems.airframe.set_speed_brakes(1.0)
         systems.airframe.set_ground_spoilers(1.0)
+
+    @property
+    def final(self) -> Final:
+        """Line along the runway."""
+        return self._final
 
     def leave_at(self, exit_path: Sequence[Place]) -> None:
         """Leave the runway by another path."""

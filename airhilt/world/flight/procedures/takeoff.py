@@ -173,13 +173,14 @@ class RejectedTakeoff(FlightPhase):
 
 
 class GoAround(FlightPhase):
-    """Goes around, cleans up, and levels off into what follows."""
+    """Goes around, cleans up, and levels off into what follows; from a flare it may touch."""
 
     name = "go_around"
     commandable = True
 
-    def __init__(self, systems: AircraftSystems, then: EnRoute) -> None:
+    def __init__(self, systems: AircraftSystems, then: EnRoute, *, may_touch: bool = False) -> None:
         super().__init__(systems)
+        self.may_touch = may_touch
         self._then = then
         self._airspeed = systems.kind.speeds.climb_safety_kt * KNOT
         self._stopped = False

@@ -1,0 +1,123 @@
+"""Ways to a final approach in sight of the runway, and an orbit on the way.
+
+Visual manoeuvring and traffic circuits: the aircraft follows a curve that ends at the threshold, at
+the height of its glide path along that curve as soon as this is below the height that it holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from airhilt.geodesy.wgs84 import Place
+from airhilt.units import KNOT
+from airhilt.world.flight.guidance import Airspeed, Altitude, CurvedPath
+from airhilt.world.flight.phases import AircraftSystems, FlightPhase
+from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.procedures.landing import Glide
+from airhilt.world.flight.state import AircraftState
+
+
+class Approach(FlightPhase):
+    """Flies a curve that ends at the threshold, and from its last line on the final approach.
+
+    At ``configure_m`` from the threshold it lowers the gear, sets the flaps and slows down to
+    approach speed.
+    """
+
+    name = "approach"
+
+    def __init__(
+        self,
+        systems: AircraftSystems,
+        final: Final,
+        exit_path: Sequence[Place],
+        path: CurvedPath,
+        level: Altitude,
+        *,
+        is_configured: bool,
+    ) -> None:
+        super().__init__(systems)
+        self.final = final
+        self.exit_path = exit_path
+        self._path = path
+        self._level = level
+        speeds = systems.kind.speeds
+        self._airspeed = (speeds.approach_kt if is_configured else speeds.minimum_clean_kt) * KNOT
+        self.is_configured = is_configured
+
+    def leave_at(self, exit_path: Sequence[Place]) -> None:
+        """Leave the runway by another path."""
+        self.exit_path = exit_path
+
+    def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
+        """Fly another airspeed until gear and flaps are lowered."""
+        self._airspeed = calibrated_airspeed_m_s
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        systems, final = self._systems, self.final
+        turn_rate = self._path.turn_rate(state)
+        curve = self._path.curve
+        if curve.is_on_last_piece:
+            return Glide(systems, final, self.exit_path, state.altitude_m).fly(state)
+        to_go_m = curve.to_go_m
+        kind, airframe = systems.kind, systems.airframe
+        if not self.is_configured and to_go_m < kind.landing.configure_m:
+            self.is_configured = True
+            self._airspeed = kind.speeds.approach_kt * KNOT
+            airframe.set_gear(1.0)
+            airframe.set_flaps(kind.landing.flaps)
+        vertical_rate = min(final.vertical_rate(state, to_go_m), self._level.vertical_rate(state))
+        systems.autopilot.fly(state, turn_rate, vertical_rate, self._airspeed)
+        return self
+
+
+class Orbit(FlightPhase):
+    """Flies a full turn at one altitude and airspeed, and goes on with the approach."""
+
+    name = "orbit"
+
+    def __init__(
+        self,
+        systems: AircraftSystems,
+        path: CurvedPath,
+        level: Altitude,
+        speed: Airspeed,
+        then: Glide | Approach,
+    ) -> None:
+        super().__init__(systems)
+        self.then = then
+        self._path = path
+        self._level = level
+        self._speed = speed
+
+    def leave_at(self, exit_path: Sequence[Place]) -> None:
+        """Leave the runway by another path."""
+        self.then.leave_at(exit_path)
+
+    @property
+    def is_configured(self) -> bool:
+        """True if gear and flaps are lowered for the landing."""
+        return self.then.is_configured
+
+    def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
+        """Fly another airspeed after the turn, until gear and flaps are lowered."""
+        self.then.hold_speed(calibrated_airspeed_m_s)
+
+    @property
+    def final(self) -> Final:
+        """Final approach that it goes on with."""
+        return self.then.final
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        turn_rate = self._path.turn_rate(state)
+        if self._path.curve.to_go_m <= 0.0:
+            return self.then.fly(state)
+        self._systems.autopilot.fly(
+            state,
+            turn_rate,
+            self._level.vertical_rate(state),
+            self._speed.airspeed(state),
+        )
+        return self
