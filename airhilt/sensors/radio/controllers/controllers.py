@@ -22,6 +22,7 @@ from airhilt.scenario.conversation import controlling_units
 from airhilt.scenario.models import Alerting, Controller
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.controllers.arrivals import Arrivals
 from airhilt.sensors.radio.controllers.calls import ControllerCalls
 from airhilt.sensors.radio.controllers.displays import Displays
 from airhilt.sensors.radio.controllers.measures import Judgement, Measure, Repetition
@@ -63,6 +64,7 @@ class Controllers:
         self._strips = Strips(context.stations, context.director)
         self._judgement = Judgement(self._displays, self._strips, speakers.said)
         self._calls = ControllerCalls(context, speakers, self._displays, self._strips)
+        self._arrivals = Arrivals(context, speakers, self._displays, self._strips)
         declared = context.scenario.controllers
         self._positions = {
             unit: Position(
@@ -106,7 +108,10 @@ class Controllers:
             return
         is_wrong, told = self._strips.heard(call, unit, text), call.in_reply_to
         position = self._positions.get(unit)
-        if position is None or told is None or not is_wrong:
+        if position is None:
+            return
+        self._arrivals.heard(call, position, text)
+        if told is None or not is_wrong:
             return
         corrections = position.corrections.get(told.id, MOST_CORRECTIONS)
         if corrections < MOST_CORRECTIONS:

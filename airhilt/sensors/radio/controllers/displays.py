@@ -149,6 +149,11 @@ class Displays:
             return None
         return found.at(now_ns)
 
+    def targets(self, now_ns: int) -> list[Target]:
+        """Return all targets on the displays, as they are now."""
+        found = (self.target(callsign, now_ns) for callsign in self._targets)
+        return [target for target in found if target is not None]
+
     def ceiling_ft(self, callsign: str) -> float:
         """Return the service ceiling of an aircraft, infinite if it is not known."""
         return self._ceilings_ft.get(callsign, math.inf)

@@ -87,10 +87,12 @@ class Strips:
             strip.follows_ra = True
         elif "clear of conflict" in said:
             strip.follows_ra = False
+        parse = self._stations.listener(call.frequency_khz).parse
+        if any(each.action == "go_around" for each in parse(text).instructions):
+            strip.runway_use = "go_around"
         told = call.in_reply_to
         if told is None or (told.speaker, told.addressed) != (unit, call.speaker):
             return False
-        parse = self._stations.listener(told.frequency_khz).parse
         meant = parse(told.said).instructions
         actions = {each.action for each in meant}
         read = [each for each in parse(text).instructions if each.action in actions]
