@@ -86,7 +86,7 @@ class World:
                 actor=actor,
                 category="aircraft",
                 bound_runway=None,
-                body=SimpleNamespace(ended=None, state=high),
+                body=SimpleNamespace(ended=None, state=high, on_ground=False),
             )
             for actor in self.scenario.actors
         }
@@ -197,14 +197,28 @@ class Scripted(HearingModel):
     __slots__ = ("_heard",)
     _heard: dict[tuple[str, str], Heard]
 
-    def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
+    def listen(
+        self,
+        transmission: str,
+        listener: str,
+        text: str,
+        snr_db: float | None,
+        times: int = 1,
+    ) -> Heard:
         return self._heard.get((transmission, listener), Heard("understood", text))
 
 
 class Sharp(HearingModel):
     """Understands all that is above 0 dB, and nothing of what is below."""
 
-    def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
+    def listen(
+        self,
+        transmission: str,
+        listener: str,
+        text: str,
+        snr_db: float | None,
+        times: int = 1,
+    ) -> Heard:
         is_loud = snr_db is None or snr_db >= 0.0
         return Heard("understood", text) if is_loud else Heard("unsure", text)
 

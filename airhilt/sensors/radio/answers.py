@@ -31,6 +31,14 @@ class Answers:
         asked = instruction.position or ""
         return self._stations.report_of(callsign, asked, self._style) or f"unable to say {asked}"
 
+    def unreadable(self, name: str, other: str) -> str:
+        """Return what somebody says who has not understood another one for the last time."""
+        return f"{self._name(other)}, {self._name(name)}, your transmission is unreadable."
+
+    def no_reply(self, name: str, other: str) -> str:
+        """Return what somebody says whom another one does not answer."""
+        return f"{self._name(other)}, {self._name(name)}, no reply heard."
+
     def hail(self, called: str, caller: str) -> str:
         """Return what who is called answers to who calls without more words."""
         names = [self._name(caller), self._name(called)]

@@ -133,12 +133,12 @@ class Compliance:
 
     def comply(self, call: RadioCall, actor: str, commands: tuple[ScriptedCommand, ...]) -> None:
         """Let an actor do what it has decided to do of a call, once if that is only confirmed."""
-        first = call.in_reply_to
-        if first is None or first.speaker != call.speaker:
-            first = call
-        if self._decided.get((first.id, actor)) == commands:
+        subjects = {subject_of(scripted.command) for scripted in commands}
+        latest = [self._latest.get((actor, subject)) for subject in subjects]
+        is_latest = all(other is not None and other.first is call.first for other in latest)
+        if self._decided.get((call.first.id, actor)) == commands and is_latest:
             return
-        self._decided[first.id, actor] = commands
+        self._decided[call.first.id, actor] = commands
         for scripted in commands:
             self._latest[actor, subject_of(scripted.command)] = call
             self._do_later(call, scripted)

@@ -7,7 +7,7 @@ from functools import partial
 from airhilt.messages import Advisory, Confirm
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
-from airhilt.sensors.radio.radio_call import RadioCall, Speakers
+from airhilt.sensors.radio.radio_call import MOST_TIMES, RadioCall, Speakers
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 
 CONFIRM_AFTER_S = 3.0
@@ -57,7 +57,7 @@ class Confirmations:
         if call is None or name not in (call.speaker, call.addressed):
             return None
         self._asked.add(key)
-        if call.is_due_again or call.id in self._times:
+        if call.is_due_again or call.id in self._times or call.first.times_given >= MOST_TIMES:
             return None
         has_taken = call.addressed is None or call.addressed in call.taken_by
         if name != call.speaker:
@@ -85,6 +85,7 @@ class Confirmations:
             call.addressed,
             call.said,
             in_reply_to=call,
+            gives_again=call,
         )
         self._originals[again.id] = call
         listener = call.addressed

@@ -44,7 +44,8 @@ class ControllerCheck:
         crew, scripted = readback.speaker, readback.scripted
         readback.withdrawn_for.add(crew)
         words = self._answers.again(crew, unit, right.text, is_correction=True)
-        correction = readback.reply("correction", unit, words)
+        instruction = readback.in_reply_to
+        correction = readback.reply("correction", unit, words, gives_again=instruction)
         correction.commands = self._planned(readback, right)
         if scripted is None:
             text = self._answers.readback_of(readback, right.text, crew)

@@ -80,7 +80,7 @@ class RadioConversation:
         self._unables = 0
         """Number of calls about what an actor cannot do any more."""
         self._compliance = Compliance(context, self._speakers)
-        policy = ReadbackPolicy(context, self._calls, self._speakers)
+        self._policy = policy = ReadbackPolicy(context, self._calls, self._speakers)
         hearing = hearing or HearingModel(context.seed)
         self._confirmations = Confirmations(context, self._speakers, policy)
         self._controllers = Controllers(context, self._speakers, self._confirmations)
@@ -165,7 +165,10 @@ class RadioConversation:
                 after_gap = partial(self._context.director.after, GAP_S, due)
                 needed.once_taken_by(call.speaker, after_gap)
                 return
-        if self._seats.has_person(call.speaker):
+        orders = any(scripted.actor != call.speaker for scripted in call.commands)
+        if not orders and self._policy.has_question(call.speaker, call.addressed):
+            self._context.director.after(GAP_S, partial(self._due, line))
+        elif self._seats.has_person(call.speaker):
             self._person_calls.tell(call)
             self._compliance.carry_out(call, call.speaker)
         else:

@@ -54,12 +54,17 @@ class HearingModel:
 
     seed: int
 
-    def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
-        """Return what a listener hears of a transmission that is not blocked."""
+    def listen(
+        self, transmission: str, listener: str, text: str, snr_db: float | None, times: int = 1
+    ) -> Heard:
+        """Return what a listener hears of a transmission that is not blocked.
+
+        Words that are said several times are understood if they are once.
+        """
         if snr_db is None:
             return Heard("understood", text)
         draws = stream(self.seed, f"hearing/{listener}/{transmission}").random(3)
-        if draws[0] < probability_understood(snr_db):
+        if draws[0] < 1.0 - (1.0 - probability_understood(snr_db)) ** times:
             return Heard("understood", text)
         if draws[0] >= probability_noticed(snr_db):
             return Heard("missed", "")

@@ -78,7 +78,9 @@ class Listeners:
             self._understand(call, said, listener, AS_SAID, said.text)
             return
         snr_db = self._context.receptions.of(said, listener).snr_db
-        heard = self._hearing.listen(said.id, listener, said.text, snr_db)
+        heard = self._hearing.listen(
+            said.id, listener, said.text, snr_db, 2 if call.is_said_twice else 1
+        )
         match heard.outcome:
             case "understood":
                 understanding = AS_SAID

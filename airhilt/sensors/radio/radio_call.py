@@ -14,6 +14,9 @@ from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import Utterance
 
+MOST_TIMES = 3
+"""Number of times that the content of a call is given before its speaker gives up."""
+
 
 @dataclass(eq=False)
 class RadioCall:
@@ -33,6 +36,8 @@ class RadioCall:
     is_repeated: bool = True
     """True if it is made again if it goes unanswered."""
     scripted: EffectiveLine | None = None
+    gives_again: RadioCall | None = None
+    """Call of the same speaker whose content it gives again, to confirm or to correct it."""
     asks_for: RadioCall | None = None
     """Call that it asks to be made again."""
     answer: RadioCall | None = None
@@ -40,9 +45,13 @@ class RadioCall:
     needs: tuple[RadioCall | None, ...] = ()
     """Calls that its speaker must have taken before; None stands for one that is never said."""
     times_said: int = 0
+    times_given: int = 0
+    """Number of times that it was said, or its content was given again in other calls."""
     transmission: str | None = None
     """Id of the transmission in which it was made last; None: it was not made yet."""
     is_due_again: bool = False
+    is_given_up: bool = False
+    """True once somebody has said that it cannot be understood."""
     withdrawn_for: set[str] = field(default_factory=set)
     """Actors that leave undone what they have not done of it yet."""
     taken_by: set[str] = field(default_factory=set)
@@ -57,8 +66,19 @@ class RadioCall:
 
     @property
     def said(self) -> str:
-        """Its words as they are said this time."""
-        return self.text if self._corrected is None else self._corrected.text
+        """Its words as they are said this time; the last time they are said twice."""
+        text = self.text if self._corrected is None else self._corrected.text
+        return f"{text} I say again. {text}" if self.is_said_twice else text
+
+    @property
+    def is_said_twice(self) -> bool:
+        """True the last time that it is said (ICAO Annex 10 volume II, 5.2.1.5.8)."""
+        return self.first.times_given >= MOST_TIMES and not self.is_of_person
+
+    @property
+    def first(self) -> RadioCall:
+        """The call that gave its content first."""
+        return self if self.gives_again is None else self.gives_again.first
 
     @property
     def meant(self) -> tuple[ScriptedCommand, ...]:
@@ -120,6 +140,7 @@ class Speakers:
             return
         again = call.times_said
         call.times_said += 1
+        call.first.times_given += 1
         call.is_due_again = False
         scripted = call.scripted
         replied_to = call.in_reply_to

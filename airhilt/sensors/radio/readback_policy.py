@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from airhilt.commands import HoldPositionCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import Decision
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.controller_check import ControllerCheck
 from airhilt.sensors.radio.on_air import Utterance
-from airhilt.sensors.radio.radio_call import RadioCall, Speakers
+from airhilt.sensors.radio.radio_call import MOST_TIMES, RadioCall, Speakers
 from airhilt.sim.streams import stream
 from airhilt.world.actors.listening import Understanding
 
@@ -23,8 +24,6 @@ REPEAT_AFTER_S = 6.0
 REPEAT_SPREAD_S = 2.0
 """Range in s of the random part of that time. Without it, two speakers who blocked each other would
 do so again."""
-MOST_REPEATS = 2
-"""Number of times that a call is made again before its speaker gives up."""
 
 
 class ReadbackPolicy:
@@ -36,6 +35,9 @@ class ReadbackPolicy:
         self._radio = context.radio
         self._stations = context.stations
         self._seed = context.seed
+        self._questions: dict[frozenset[str | None], RadioCall] = {}
+        """The last call that one of two has asked the other to say again."""
+        self._world = context.world
         self._calls = calls
         self._speakers = speakers
         self._answers = Answers(context)
@@ -118,7 +120,9 @@ class ReadbackPolicy:
         decision: Decision,
     ) -> None:
         """Let somebody answer a call that no line of the script answers."""
-        if call.in_reply_to is not None or self.readback_in_script(call, listener) is not None:
+        if call.answer is not None or self.readback_in_script(call, listener) is not None:
+            return
+        if call.in_reply_to is not None and call.gives_again is None:
             return
         taken = understanding.call or self._stations.listener(call.frequency_khz).parse(said.text)
         is_to_crew = self._stations.is_actor(listener) and not self._stations.is_actor(call.speaker)
@@ -147,6 +151,8 @@ class ReadbackPolicy:
         if call.asks_for is not None:
             self._repeat(call.asks_for, REPEAT_AFTER_S)
         if not (call.is_of_person or self._may_repeat(call)):
+            if self._is_wanted(call):
+                self._give_up(call, listener, self._answers.unreadable(listener, call.speaker))
             return
         question = call.reply(
             f"say-again-{call.times_said}",
@@ -155,7 +161,18 @@ class ReadbackPolicy:
             is_repeated=False,
             asks_for=None if call.is_of_person else call,
         )
+        self._questions[frozenset((listener, call.speaker))] = call
         self._answer(question)
+
+    def has_question(self, one: str, other: str | None) -> bool:
+        """Return whether one of two waits for what it has asked the other to say again."""
+        call = self._questions.get(frozenset((one, other)))
+        return not (
+            call is None
+            or call.addressed in call.taken_by
+            or call.is_of_person
+            or call.first.is_given_up
+        )
 
     def _unanswered(self, call: RadioCall, listener: str) -> None:
         """Let the speaker repeat a call that its addressee has not taken."""
@@ -163,14 +180,32 @@ class ReadbackPolicy:
             return  # Nobody notices: that is the failure of the scenario.
         if call.asks_for is not None:
             self._repeat(call.asks_for, REPEAT_AFTER_S)
-        self._repeat(call, REPEAT_AFTER_S)
+        if self._may_repeat(call):
+            self._repeat(call, REPEAT_AFTER_S)
+        elif self._is_wanted(call):
+            self._give_up(call, call.speaker, self._answers.no_reply(call.speaker, listener))
+
+    def _give_up(self, call: RadioCall, name: str, text: str) -> None:
+        """Let somebody say once that a call cannot be understood; who moves on the ground stops."""
+        if call.first.is_given_up:
+            return
+        call.first.is_given_up = True
+        other = call.speaker if name != call.speaker else call.addressed
+        khz, stops = call.frequency_khz, self._stations.is_moving_on_ground(name)
+        if stops:
+            self._world.do(name, HoldPositionCommand(action="hold_position"))
+            text = f"{text.removesuffix('.')}, holding position."
+        end = RadioCall(f"{call.first.id}.end", khz, name, other, text, is_repeated=False)
+        self._answer(end)
+
+    def _is_wanted(self, call: RadioCall) -> bool:
+        """Return whether a call is made until it is taken; a person does that by itself."""
+        is_wanted = call.is_repeated or self._radio.controller_checks_readbacks
+        return is_wanted and call.asks_for is None and not call.is_of_person
 
     def _may_repeat(self, call: RadioCall) -> bool:
-        """Return whether a call may be made again; a person does that without being made to."""
-        if call.is_of_person:
-            return False
-        is_wanted = call.is_repeated or self._radio.controller_checks_readbacks
-        return is_wanted and call.asks_for is None and call.times_said <= MOST_REPEATS
+        """Return whether a call may be made again."""
+        return self._is_wanted(call) and call.first.times_given < MOST_TIMES
 
     def _repeat(self, call: RadioCall, after_s: float) -> None:
         if self._may_repeat(call) and not call.is_due_again:

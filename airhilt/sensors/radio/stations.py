@@ -21,6 +21,8 @@ COMPASS = (
     "north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest",
 )  # fmt: skip
 """Points of the compass, from north clockwise."""
+TAXIING_M_S = (0.5, 15.0)
+"""Ground speeds in m/s between which somebody on the ground taxies or drives: an assumption."""
 GROUND_ANTENNA_M = 50.0 * FOOT
 """Height of the units' antenna in m, the same as that of an ADS-B receiver by default."""
 
@@ -158,6 +160,13 @@ class Stations:
             case [*_, "intentions"] if runway is not None:
                 return f"runway {speak_runway(runway, style)}"
         return None
+
+    def is_moving_on_ground(self, name: str) -> bool:
+        """Return whether a name is that of an actor that taxies or drives."""
+        if name not in self._actors:
+            return False
+        body = self._actors[name].body
+        return body.on_ground and TAXIING_M_S[0] < body.state.ground_speed_m_s < TAXIING_M_S[1]
 
     def background_of(self, name: str) -> BackgroundNoise:
         """Return the noise around the microphone of an actor or a unit."""

@@ -19,7 +19,8 @@ from airhilt.messages import (
 )
 from airhilt.sensors.radio.hearing import Heard
 from airhilt.sensors.radio.listeners import TRANSCRIPT_PATIENCE_S
-from airhilt.sensors.radio.readback_policy import MOST_REPEATS, REPEAT_AFTER_S, REPEAT_SPREAD_S
+from airhilt.sensors.radio.radio_call import MOST_TIMES
+from airhilt.sensors.radio.readback_policy import REPEAT_AFTER_S, REPEAT_SPREAD_S
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Priority
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
@@ -126,10 +127,15 @@ def test_a_question_that_nobody_hears_does_not_end_the_matter() -> None:
     ]  # fmt: skip
 
 
-def test_a_call_that_is_never_taken_is_given_up_and_nothing_follows_from_it() -> None:
-    names = ["clearance", *(f"clearance.repeat-{n + 1}" for n in range(MOST_REPEATS))]
-    world = World(CLEARANCE, READBACK, heard={(name, "AAL123"): MISSED for name in names}).run()
-    assert world.said() == names
+@pytest.mark.parametrize(("heard", "end"), [(MISSED, "no reply heard"), (UNSURE, "unreadable")])
+def test_a_call_that_is_never_taken_is_said_twice_the_last_time_and_then_given_up(
+    heard: Heard, end: str
+) -> None:
+    names = ["clearance", *(f"clearance.repeat-{n}" for n in range(1, MOST_TIMES))]
+    world = World(CLEARANCE, READBACK, heard={(name, "AAL123"): heard for name in names}).run()
+    assert [name for name in world.said() if "say-again" not in name] == [*names, "clearance.end"]
+    assert world.spoken(names[-1]).text.count(CLEARANCE["text"]) == 2
+    assert end in world.spoken("clearance.end").text
     assert world.done == []
 
 

@@ -51,9 +51,12 @@ class ControllerCalls:
                 said = speak_instruction(callsign, instructions, self._context.radio.phraseology)
             text = self._answers.again(callsign, unit, said, is_correction=is_correction)
         planned: tuple[ScriptedCommand, ...] = ()
+        again = measure.call if isinstance(measure, Repetition) else None
         if isinstance(measure, Repetition):
             planned = tuple(one for one in self._planned(measure.call) if one.actor == callsign)
-        return RadioCall(name, frequency_khz, unit, callsign, text, planned, is_urgent=True)
+        return RadioCall(
+            name, frequency_khz, unit, callsign, text, planned, is_urgent=True, gives_again=again
+        )
 
     def _planned(self, call: RadioCall) -> tuple[ScriptedCommand, ...]:
         """Return the commands of a scripted instruction and of a right readback in the script."""
