@@ -16,7 +16,7 @@ from airhilt.geodesy.positions import RunwayPosition
 from airhilt.geodesy.wgs84 import distance_m, onward
 from airhilt.units import KNOT
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.runway_operations import FinalApproach
+from airhilt.world.actors.final_approach import FinalApproach
 from airhilt.world.actors.taxi_paths import (
     exit_for,
     hold_beside,
