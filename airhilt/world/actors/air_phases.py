@@ -70,6 +70,10 @@ def refusal_in_phase(aircraft: Aircraft, command: Command) -> str | None:
         )
     if phase == "flare" and not isinstance(command, GoAroundCommand | LandCommand):
         return "unable, landing"
+    if isinstance(command, EmergencyDescentCommand) and (
+        command.altitude_ft * FOOT >= state.altitude_m
+    ):
+        return f"unable, below {command.altitude_ft:g} ft already"
     is_low = phase in ("approach", "glide") and state.height_agl_m < LAST_TURN_M
     if is_low and isinstance(command, (*LATERAL, *VERTICAL)):
         return "unable, on short final"

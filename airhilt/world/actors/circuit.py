@@ -27,6 +27,8 @@ half to one mile)."""
 WIDTH_RADII = 2.5
 """That distance for faster aircraft, in radii of the turns to base and to final: two, and a short
 base leg between them; assumed."""
+WIDEST_PART = 2.0
+"""Greatest distance of a downwind leg that is flown already, in parts of the usual one; assumed."""
 STABLE_FT = 500.0
 """Height at which an approach has its wings level on the final course, in ft (Flight Safety
 Foundation, ALAR Briefing Note 7.1: stabilised in visual conditions)."""
@@ -106,14 +108,19 @@ class Circuit:
 
     def poses(self, leg: CircuitLeg, here: Place, track_rad: float) -> dict[CircuitLeg, Pose]:
         """Return where the circuit is joined on a leg, and a place on each leg from there on."""
-        final, radius, width_m = self.final, self._radius_m, self._sign * self._width_m
+        final, radius, width_m = self.final, self._radius_m, self._width_m
+        if self.is_on("downwind", here, track_rad):
+            width_m = min(max(width_m, abs(final.right_m(here))), WIDEST_PART * width_m)
+        width_m *= self._sign
         before_m, length_m = final.before_m(here), final.runway.length_m
         is_on = self.is_on(leg, here, track_rad)
         turn_m = self._gate_m + radius
         along = {
             "upwind": -length_m if not is_on else min(-length_m, before_m - radius),
             "crosswind": -length_m - radius,
-            "downwind": -length_m / 2.0 if not is_on else max(-length_m / 2.0, before_m + radius),
+            "downwind": -length_m / 2.0
+            if not is_on
+            else max(-length_m / 2.0, before_m + self._radius_now_m),
             "base": turn_m,
         }
         if leg == "base" and self.is_on("downwind", here, track_rad):

@@ -21,6 +21,7 @@ from airhilt.commands import (
     ContactCommand,
     ContinueCommand,
     CrossCommand,
+    CrossFixCommand,
     DirectCommand,
     DriftDownCommand,
     EmergencyDescentCommand,
@@ -35,9 +36,11 @@ from airhilt.commands import (
     JoinCommand,
     LandCommand,
     LineUpCommand,
+    MachCommand,
     OrbitCommand,
     PushBackCommand,
     ResumeRouteCommand,
+    ResumeSpeedCommand,
     ReturnToFieldCommand,
     RouteCommand,
     ShortApproachCommand,
@@ -48,6 +51,7 @@ from airhilt.commands import (
     TrackCommand,
     TurnCommand,
     VacateCommand,
+    VerticalRateCommand,
 )
 from airhilt.phraseology import Action, Instruction
 
@@ -75,8 +79,11 @@ DOES: Mapping[str, frozenset[str]] = {
 
 Subject = Literal["level", "speed", "track", "approach", "radio", "surface"]
 _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
-    "level": (AltitudeCommand, DriftDownCommand, EmergencyDescentCommand),
-    "speed": (SpeedCommand,),
+    "level": (
+        AltitudeCommand, DriftDownCommand, EmergencyDescentCommand, VerticalRateCommand,
+        CrossFixCommand,
+    ),
+    "speed": (SpeedCommand, ResumeSpeedCommand),
     "track": (
         TrackCommand, TurnCommand, RouteCommand, ResumeRouteCommand, DirectCommand, OrbitCommand,
         HoldAtCommand,
@@ -89,6 +96,8 @@ _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
 }  # fmt: skip
 """Commands in the air and on the radio, by what they are about; all others are about movement on
 the surface."""
+APPROACHES: frozenset[Action] = frozenset({"cleared_approach", "circle", "side_step", "join"})
+"""Actions whose runway is that of a clearance behind them in the same call."""
 
 
 class NotUnderstood(Exception):
@@ -115,25 +124,42 @@ def orders_of(
 
     Headings are magnetic, and are flown as true tracks: without wind. The variation is in degrees,
     positive east. An instruction without a runway means the one that the actor is going to use. A
-    level that comes with a takeoff or a go-around is the level that it climbs to. A level to cross
-    a fix at, or not to pass, is no level to fly to. What a call with a taxi clearance says about
-    runways to cross and where to hold short is part of that clearance.
+    runway that is named with an approach is that of what follows in the call. A level that comes
+    with a takeoff or a go-around is the level that it climbs to, and a heading that comes with a
+    takeoff is flown after it. A limit is kept by flying at it. What a call with a taxi clearance
+    says about runways to cross and where to hold short is part of that clearance.
     """
     given = tuple(instructions)
     now = [each for each in given if not each.is_conditional]
-    levels = (each for each in now if each.action == "altitude" and each.bound is None)
+    levels = (each for each in now if each.action == "altitude")
     level_ft = next((each.altitude_ft for each in levels if each.altitude_ft is not None), None)
     climbs = any(each.action in ("cleared_for_takeoff", "go_around") for each in now)
+    heading_deg = _heading_after_takeoff(now)
     on_the_way = _on_the_way(now)
     orders = []
     for each in given:
         is_part = on_the_way is not None and each.action in ("cross", "hold_short")
         is_level = climbs and each.action == "altitude"
+        is_level |= heading_deg is not None and each.action == "heading"
         if each.action in NOTHING_MOVES or is_level or (is_part and not each.is_conditional):
             orders.append(Order(each))
         else:
-            orders.append(_order(each, bound_runway, level_ft, variation_deg, on_the_way))
+            order = _order(each, bound_runway, level_ft, variation_deg, on_the_way)
+            if heading_deg is not None and isinstance(order.command, TakeOffCommand):
+                track_deg = (heading_deg + variation_deg) % 360.0
+                command = order.command.model_copy(update={"track_deg": track_deg})
+                order = Order(each, command)
+            orders.append(order)
+        if each.action in APPROACHES and each.runway is not None:
+            bound_runway = each.runway
     return tuple(orders)
+
+
+def _heading_after_takeoff(given: Sequence[Instruction]) -> float | None:
+    """Return the heading that comes with a takeoff clearance; None if there is none."""
+    if not any(each.action == "cleared_for_takeoff" for each in given):
+        return None
+    return next((each.heading_deg for each in given if each.action == "heading"), None)
 
 
 def _on_the_way(given: Sequence[Instruction]) -> _OnTheWay | None:
@@ -266,7 +292,7 @@ def _command(
             return HoldAtCommand(action="hold_at", fix=named("the fix"), turn=turn or "right")
         case "own_navigation":
             return ResumeRouteCommand(action="resume_route")
-        case "altitude" if instruction.bound is None:
+        case "altitude":
             if instruction.altitude_ft is None:
                 raise NotUnderstood("say altitude")
             return AltitudeCommand(
@@ -282,8 +308,22 @@ def _command(
         case "turn_by" if instruction.turn_deg is not None:
             degrees = -instruction.turn_deg if turn == "left" else instruction.turn_deg
             return TurnCommand(action="turn", degrees=degrees)
-        case "speed" if instruction.speed_kt is not None and instruction.bound is None:
+        case "speed" if instruction.speed_kt is not None:
             return SpeedCommand(action="speed", cas_kt=instruction.speed_kt)
+        case "speed" if instruction.named == "normal":
+            return ResumeSpeedCommand(action="resume_speed")
+        case "mach" if instruction.mach is not None:
+            return MachCommand(action="mach", mach=instruction.mach)
+        case "resume_speed":
+            return ResumeSpeedCommand(action="resume_speed")
+        case "vertical_rate" if instruction.rate_fpm is not None:
+            return VerticalRateCommand(
+                action="vertical_rate", vertical_rate_fpm=instruction.rate_fpm
+            )
+        case "cross_fix" if instruction.altitude_ft is not None:
+            return CrossFixCommand(
+                action="cross_fix", fix=named("the fix"), altitude_ft=instruction.altitude_ft
+            )
         # On the ground.
         case "hold_position" | "stop":
             return HoldPositionCommand(action="hold_position")
@@ -327,7 +367,9 @@ def subject_of(command: Command) -> Subject:
 
 
 def _leg(words: str | None) -> CircuitLeg:
-    """Return the leg of the circuit that words name."""
+    """Return the leg of the circuit that words name; a straight-in approach is on final."""
+    if words is not None and "straight" in words:
+        return "final"
     for leg in cast("tuple[CircuitLeg, ...]", get_args(CircuitLeg)):
         if words is not None and leg in words:
             return leg

@@ -111,3 +111,38 @@ def test_when_ready_is_now_and_other_conditions_are_asked_about() -> None:
             Instruction(cast(Action, action), "01", heading_deg=90.0, condition=condition)
         )
         assert asked.question == f"say again, {condition}"
+
+
+def test_a_clearance_behind_an_approach_is_for_the_runway_of_the_approach() -> None:
+    said = Instruction("circle", "33"), Instruction("cleared_to_land")
+    circle, land = orders_of(said, "01", 0.0)
+    assert circle.command is not None
+    assert land.command is not None
+    assert land.command.model_dump().items() >= {"action": "land", "runway": "33"}.items()
+
+
+def test_a_heading_with_a_takeoff_is_flown_after_it() -> None:
+    said = Instruction("heading", heading_deg=40.0), Instruction("cleared_for_takeoff", "01")
+    heading, takeoff = orders_of(said, None, -10.0)
+    assert heading.command is None
+    assert not heading.unable
+    assert takeoff.command is not None
+    assert takeoff.command.model_dump()["track_deg"] == pytest.approx(30.0)
+
+
+def test_speeds_rates_and_levels_at_fixes_are_orders_too(subtests: pytest.Subtests) -> None:
+    rows: list[Any] = [
+        ({"action": "mach", "mach": 0.78}, {"mach": 0.78}),
+        ({"action": "vertical_rate", "rate_fpm": 2000.0}, {"vertical_rate_fpm": 2000.0}),
+        ({"action": "resume_speed"}, {"action": "resume_speed"}),
+        ({"action": "speed", "speed_kt": 170.0, "bound": "or_more"}, {"cas_kt": 170.0}),
+        (
+            {"action": "cross_fix", "position": "LAM", "altitude_ft": 12_000.0},
+            {"fix": "LAM", "altitude_ft": 12_000.0},
+        ),
+        ({"action": "join", "position": "straight in", "runway": "01"}, {"leg": "final"}),
+    ]
+    for instruction, command in rows:
+        with subtests.test(str(instruction)):
+            made = order(Instruction(**instruction)).command
+            assert made.model_dump().items() >= command.items()

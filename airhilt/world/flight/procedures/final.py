@@ -86,11 +86,7 @@ class Final:
         The distance to the threshold is as of `above_glide_path_m`.
         """
         correction = self._glide_gain * self.above_glide_path_m(state, to_go_m)
-        glide_rate = self.glide_rate(state)
-        if correction < -GREATEST_CORRECTION_M_S:
-            # Far below the path it does not descend, however fast it flies.
-            return max(glide_rate + GREATEST_CORRECTION_M_S, 0.0)
-        return glide_rate - within(correction, GREATEST_CORRECTION_M_S)
+        return self.glide_rate(state) - within(correction, GREATEST_CORRECTION_M_S)
 
     def require_reachable(self, state: AircraftState) -> None:
         """Raise ValueError unless the approach can be flown from here."""

@@ -16,6 +16,13 @@ from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.landing import Glide
 from airhilt.world.flight.state import AircraftState
 
+BELOW_M = 30.0
+"""Distance below the glide path within which the aircraft begins to descend along it, in m: what
+its rate corrects at an airliner's approach speed."""
+SHORT_FINAL_M = 3000.0
+"""Distance from the threshold within which the final approach is flown, even from below the glide
+path, in m; assumed."""
+
 
 class Approach(FlightPhase):
     """Flies a curve that ends at the threshold, and from its last line on the final approach.
@@ -58,16 +65,19 @@ class Approach(FlightPhase):
         systems, final = self._systems, self.final
         turn_rate = self._path.turn_rate(state)
         curve = self._path.curve
-        if curve.is_on_last_piece:
-            return Glide(systems, final, self.exit_path, state.altitude_m).fly(state)
         to_go_m = curve.to_go_m
+        is_below = final.above_glide_path_m(state, to_go_m) < -BELOW_M
+        if curve.is_on_last_piece and not (is_below and to_go_m > SHORT_FINAL_M):
+            return Glide(systems, final, self.exit_path, state.altitude_m).fly(state)
         kind, airframe = systems.kind, systems.airframe
         if not self.is_configured and to_go_m < kind.landing.configure_m:
             self.is_configured = True
             self._airspeed = kind.speeds.approach_kt * KNOT
             airframe.set_gear(1.0)
             airframe.set_flaps(kind.landing.flaps)
-        vertical_rate = min(final.vertical_rate(state, to_go_m), self._level.vertical_rate(state))
+        vertical_rate = self._level.vertical_rate(state)
+        if not is_below:
+            vertical_rate = min(vertical_rate, final.vertical_rate(state, to_go_m))
         systems.autopilot.fly(state, turn_rate, vertical_rate, self._airspeed)
         return self
 
