@@ -140,7 +140,9 @@ def orders_of(
     for each in given:
         is_part = on_the_way is not None and each.action in ("cross", "hold_short")
         is_level = climbs and each.action == "altitude"
-        is_level |= heading_deg is not None and each.action == "heading"
+        is_level |= each.action == "heading" and (
+            heading_deg is not None or (climbs and each.heading_deg is None)
+        )
         if each.action in NOTHING_MOVES or is_level or (is_part and not each.is_conditional):
             orders.append(Order(each))
         else:
@@ -302,7 +304,9 @@ def _command(
             )
         case "heading":
             if instruction.heading_deg is None:
-                raise NotUnderstood("say heading")
+                if place is None:
+                    raise NotUnderstood("say heading")
+                return TurnCommand(action="turn", degrees=0.0)  # The present or runway heading.
             track_deg = (instruction.heading_deg + variation_deg) % 360.0
             return TrackCommand(action="track", track_deg=track_deg)
         case "turn_by" if instruction.turn_deg is not None:
