@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 from shapely import Point
@@ -194,7 +195,7 @@ class Seen:
     # --- on the ground ----------------------------------------------------------------------
 
     def stands_still(self) -> bool:
-        return speed_m_s(self.states[-1]) < 0.5 and self.states[-1]["on_ground"]
+        return speed_m_s(self.states[-1]) < 0.5 and bool(self.states[-1]["on_ground"])
 
     def on_runway(self, ident: str, state: dict[str, Any]) -> bool:
         strip = LAYOUT.strip_of(ident)
@@ -243,12 +244,12 @@ class Seen:
         )  # fmt: skip
 
     def takes_off(self) -> bool:
-        return self.states[0]["on_ground"] and not self.states[-1]["on_ground"]
+        return bool(self.states[0]["on_ground"]) and not self.states[-1]["on_ground"]
 
     def goes_around(self) -> bool:
         lowest = min(range(len(self.states)), key=lambda i: float(self.states[i]["altitude_m"]))
         climbed_m = self.states[-1]["altitude_m"] - self.states[lowest]["altitude_m"]
-        return climbed_m > 60.0 and not any(state["on_ground"] for state in self.states)
+        return bool(climbed_m > 60.0) and not any(state["on_ground"] for state in self.states)
 
     def altitude(self, ft: float) -> bool:
         return any(abs(state["altitude_m"] / FOOT - ft) < 150.0 for state in self.states)
@@ -259,11 +260,11 @@ class Seen:
 
     def speed(self, kt: float) -> bool:
         last = self.states[-1]["calibrated_airspeed_m_s"] or 0.0
-        return abs(last / KNOT - kt) < 10.0
+        return bool(abs(last / KNOT - kt) < 10.0)
 
     def orbits(self) -> bool:
         tracks = [track_deg(state) for state in self.states]
-        turned = sum(turned_deg(b, a) for a, b in zip(tracks, tracks[1:], strict=False))
+        turned = sum(turned_deg(after, before) for before, after in pairwise(tracks))
         return abs(turned) > 300.0
 
     def flies_on(self) -> bool:
