@@ -191,7 +191,8 @@ def test_who_comes_back_has_the_seat_again() -> None:
 @pytest.mark.parametrize(
     ("seat", "words", "is_told"),
     [
-        (TOWER, "American 123, behind the landing traffic line up and wait runway one", True),
+        (TOWER, "American 123, after departure, turn left heading 270", True),
+        (TOWER, "American 123, behind the landing traffic line up and wait runway one", False),
         (TOWER, "American 123, line up and wait runway one", False),
         (TOWER, "Somebody else, behind the landing traffic line up and wait runway one", False),
         ("AAL123", "Behind the landing traffic, lining up runway one, American 123", False),

@@ -102,10 +102,11 @@ def test_behind_other_traffic_is_done_once_that_has_passed(
 
 def test_when_ready_is_now_and_other_conditions_are_asked_about() -> None:
     assert order(Instruction("cross", "01", condition="when ready")).command.action == "cross"
-    for action, condition in [
+    others: list[tuple[Action, str]] = [
         ("cross", "after departure"),
         ("line_up", "once the runway is clear"),
         ("heading", "behind the landing cessna"),
-    ]:
+    ]
+    for action, condition in others:
         asked = order(Instruction(action, "01", heading_deg=90.0, condition=condition))
         assert asked.question == f"say again, {condition}"
