@@ -50,8 +50,8 @@ def hold_beside(
 ) -> Hold:
     """Return the hold-short position of a runway at which an actor stands, or raise `Unable`.
 
-    That is one on the taxiway behind whose line it stands, or the nearest one if it stands beyond
-    the line already; with a heading, one that it points to.
+    The actor stands on its taxiway before the line, or beyond the line already. With a heading, it
+    points to the runway.
     """
     airport = site.airport
     strip = airport.strips[strip_name(airport, runway)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, cast, get_args
+from typing import Any, get_args
 
 import pytest
 
@@ -102,14 +102,13 @@ def test_behind_other_traffic_is_done_once_that_has_passed(
 
 def test_when_ready_is_now_and_other_conditions_are_asked_about() -> None:
     assert order(Instruction("cross", "01", condition="when ready")).command.action == "cross"
-    for action, condition in [
+    others: list[tuple[Action, str]] = [
         ("cross", "after departure"),
         ("line_up", "once the runway is clear"),
         ("heading", "behind the landing cessna"),
-    ]:
-        asked = order(
-            Instruction(cast(Action, action), "01", heading_deg=90.0, condition=condition)
-        )
+    ]
+    for action, condition in others:
+        asked = order(Instruction(action, "01", heading_deg=90.0, condition=condition))
         assert asked.question == f"say again, {condition}"
 
 

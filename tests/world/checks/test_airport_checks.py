@@ -175,7 +175,7 @@ def invalid_file(tmp_path: Path, change: Callable[..., Any]) -> Path:
         (put("scene", "airport", "KDCX"), "did you mean"),
         (
             put("actors", 1, "commands", [{"action": "continue"}]),
-            "actors/OPS1: cannot begin like that: unable, there is no path to go on with",
+            "actors/OPS1: cannot begin like that: unable, no further clearance",
         ),
         (
             lambda d: d["actors"].append(
