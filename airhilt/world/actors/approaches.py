@@ -57,7 +57,7 @@ LONGEST_FINAL_M = 12.0 * NAUTICAL_MILE
 assumed."""
 GATE_STEP_M = 0.5 * NAUTICAL_MILE
 """Step in which the final is lengthened until the descent is not too steep, in m."""
-STEEPEST_RAD = 5.0 * DEGREE
+STEEPEST_RAD = 3.8 * DEGREE
 """Greatest mean angle of descent on the way to a runway, in rad; assumed: the correction to the
 glide path on top of its 3 degrees."""
 SHARPEST_RAD = 300.0 * DEGREE

@@ -34,6 +34,8 @@ STABLE_FT = 500.0
 Foundation, ALAR Briefing Note 7.1: stabilised in visual conditions)."""
 STABLE_CIRCLING_FT = 300.0
 """The same for a circling approach, in ft (ALAR Briefing Note 7.1)."""
+SETTLE_S = 5.0
+"""Time from the end of the last turn until the wings are level, in s; assumed."""
 APPROACH_SPEED_PART = 1.1
 """Speed in the last turns, as a part of the approach speed; assumed."""
 LEG_ANGLES = {"upwind": 0.0, "crosswind": -90.0, "downwind": 180.0, "base": 90.0, "final": 0.0}
@@ -65,8 +67,9 @@ def last_radius_m(kind: AircraftType, state: AircraftState) -> float:
 
 
 def gate_m(kind: AircraftType, final: FinalApproach, stable_ft: float) -> float:
-    """Return how far before the threshold the last turn has ended, for a height there in ft."""
-    return stable_ft * FOOT / math.tan(final.runway.glide_path_rad) - kind.landing.aim_m
+    """Return how far before the threshold the last turn ends, to be stable at a height in ft."""
+    stable_m = stable_ft * FOOT / math.tan(final.runway.glide_path_rad) - kind.landing.aim_m
+    return stable_m + SETTLE_S * kind.speeds.approach_kt * KNOT
 
 
 def joined(poses: Sequence[Pose], first_radius_m: float, radius_m: float) -> tuple[Piece, ...]:

@@ -134,7 +134,7 @@ def orders_of(
     levels = (each for each in now if each.action == "altitude")
     level_ft = next((each.altitude_ft for each in levels if each.altitude_ft is not None), None)
     climbs = any(each.action in ("cleared_for_takeoff", "go_around") for each in now)
-    heading_deg = _heading_after_takeoff(now)
+    heading_deg = _heading_after_takeoff(given)
     on_the_way = _on_the_way(now)
     orders = []
     for each in given:
@@ -161,7 +161,14 @@ def _heading_after_takeoff(given: Sequence[Instruction]) -> float | None:
     """Return the heading that comes with a takeoff clearance; None if there is none."""
     if not any(each.action == "cleared_for_takeoff" for each in given):
         return None
-    return next((each.heading_deg for each in given if each.action == "heading"), None)
+    return next(
+        (
+            each.heading_deg
+            for each in given
+            if each.action == "heading" and each.condition in (None, "when airborne")
+        ),
+        None,
+    )
 
 
 def _on_the_way(given: Sequence[Instruction]) -> _OnTheWay | None:

@@ -177,7 +177,7 @@ class RunwayOperations:
 
     def _attend_landing(self, final: FinalApproach, phase: str) -> None:
         then = "full_stop" if self._cleared is None else self._cleared.then
-        if phase in ("glide", "flare"):
+        if phase in APPROACHING:
             self._go_around_uncleared(final)
             if then == "low_approach" and self._aircraft.state.height_agl_m < LOW_APPROACH_M:
                 self.go_around()

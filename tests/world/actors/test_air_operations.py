@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
@@ -270,6 +271,25 @@ def test_wings_are_level_on_the_final_course_at_300_ft_after_circling() -> None:
     final = FinalApproach(kdca().airport, kdca().runway("33"))
     assert abs(final.right_m(flight.here)) < 30.0
     assert abs(final.angle_rad(flight.aircraft.state.track_rad)) < 5 * DEGREE
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_from_wherever_it_flies_it_lands_where_it_is_cleared_or_refuses(seed: int) -> None:
+    draw = random.Random(seed)
+    kind, runway = draw.choice(["737", "B747", "c172p"]), draw.choice(["01", "19", "33", "15"])
+    flight = en_route(
+        kind,
+        before_nm=draw.uniform(-6.0, 10.0),
+        right_m=draw.uniform(-10_000.0, 10_000.0),
+        altitude_ft=draw.choice([900.0, 1_500.0, 3_000.0]),
+        turned_deg=draw.uniform(-180.0, 180.0),
+    )
+    why = flight.tell("land", runway=runway)
+    if why is None:
+        flight.lands_on(runway)
+        assert flight.said == []
+    else:
+        assert why.startswith("unable, too")
 
 
 # --- the circuit ------------------------------------------------------------------------------

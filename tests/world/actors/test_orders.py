@@ -121,12 +121,12 @@ def test_a_clearance_behind_an_approach_is_for_the_runway_of_the_approach() -> N
 
 
 def test_a_heading_with_a_takeoff_is_flown_after_it() -> None:
-    said = Instruction("heading", heading_deg=40.0), Instruction("cleared_for_takeoff", "01")
-    heading, takeoff = orders_of(said, None, -10.0)
-    assert heading.command is None
-    assert not heading.unable
-    assert takeoff.command is not None
-    assert takeoff.command.model_dump()["track_deg"] == pytest.approx(30.0)
+    for condition in (None, "when airborne"):
+        turn = Instruction("heading", heading_deg=40.0, condition=condition)
+        heading, takeoff = orders_of([turn, Instruction("cleared_for_takeoff", "01")], None, -10.0)
+        assert (heading.command, heading.unable, heading.question) == (None, "", "")
+        assert takeoff.command is not None
+        assert takeoff.command.model_dump()["track_deg"] == pytest.approx(30.0)
 
 
 def test_speeds_rates_and_levels_at_fixes_are_orders_too(subtests: pytest.Subtests) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from airhilt.geodesy.wgs84 import Place
-from airhilt.units import KNOT
+from airhilt.units import DEGREE, KNOT, wrap_angle
 from airhilt.world.flight.guidance import Airspeed, Altitude, CurvedPath
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.final import Final
@@ -19,9 +19,13 @@ from airhilt.world.flight.state import AircraftState
 BELOW_M = 30.0
 """Distance below the glide path within which the aircraft begins to descend along it, in m: what
 its rate corrects at an airliner's approach speed."""
-SHORT_FINAL_M = 3000.0
-"""Distance from the threshold within which the final approach is flown, even from below the glide
-path, in m; assumed."""
+SETTLED_M = 20.0
+"""Greatest distance from the centre line at which the turn onto it is over, in m; assumed. The law
+of the final approach is as tight as small errors need, and swings to and fro with great ones."""
+SETTLED_RAD = 3.0 * DEGREE
+"""Greatest bank, and greatest angle to the course, at which that turn is over, in rad; assumed."""
+SHORT_FINAL_M = 1000.0
+"""Distance from the threshold within which the law of the final approach flies anyway, in m."""
 
 
 class Approach(FlightPhase):
@@ -67,7 +71,8 @@ class Approach(FlightPhase):
         curve = self._path.curve
         to_go_m = curve.to_go_m
         is_below = final.above_glide_path_m(state, to_go_m) < -BELOW_M
-        if curve.is_on_last_piece and not (is_below and to_go_m > SHORT_FINAL_M):
+        is_settled = self._is_settled(state) and not is_below
+        if curve.is_on_last_piece and (is_settled or to_go_m < SHORT_FINAL_M):
             return Glide(systems, final, self.exit_path, state.altitude_m).fly(state)
         kind, airframe = systems.kind, systems.airframe
         if not self.is_configured and to_go_m < kind.landing.configure_m:
@@ -80,6 +85,12 @@ class Approach(FlightPhase):
             vertical_rate = min(vertical_rate, final.vertical_rate(state, to_go_m))
         systems.autopilot.fly(state, turn_rate, vertical_rate, self._airspeed)
         return self
+
+    def _is_settled(self, state: AircraftState) -> bool:
+        """Return whether it flies along the centre line."""
+        angle = wrap_angle(state.track_rad - self.final.course_rad(state))
+        is_along = max(abs(angle), abs(state.roll_rad)) < SETTLED_RAD
+        return is_along and abs(self.final.cross_track_m(state)) < SETTLED_M
 
 
 class Orbit(FlightPhase):
