@@ -1,4 +1,4 @@
-"""Whatever a tower says, in whatever situation: it is done as read back, refused, or asked about."""
+"""What a tower says in any situation is done as read back, or refused, or asked about."""
 
 from __future__ import annotations
 
