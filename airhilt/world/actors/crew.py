@@ -76,6 +76,16 @@ ENDS_DEPARTURE = (
 """Commands after which an aircraft lines up or takes off only when it is told again."""
 ON_TO_A_RUNWAY = (TakeOffCommand, LineUpCommand, ContinueCommand, CrossCommand)
 """Commands by which an aircraft goes on to a runway, or takes off from it."""
+FLOWN = (
+    AltitudeCommand,
+    TrackCommand,
+    TurnCommand,
+    RouteCommand,
+    ResumeRouteCommand,
+    DriftDownCommand,
+    EmergencyDescentCommand,
+)
+"""Commands that the crew carries out by itself in the air."""
 EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
     "jet": "A3",
     "heavy_jet": "A5",
@@ -224,7 +234,11 @@ class Crew:
         if act is not None:
             return act
         act = self._en_route.plan(command)
-        return None if act is None else partial(self._do_en_route, act, command)
+        if act is not None:
+            return partial(self._do_en_route, act, command)
+        if not isinstance(command, FLOWN):
+            raise Unable(f"unable to {command.action.replace('_', ' ')}")
+        return None
 
     def _do_en_route(self, act: Act, command: Command) -> None:
         act()
@@ -270,8 +284,6 @@ class Crew:
                 aircraft.procedures.drift_down()
             case EmergencyDescentCommand(altitude_ft=altitude):
                 aircraft.procedures.emergency_descent(altitude * FOOT)
-            case _:
-                raise Unable(f"unable to {command.action.replace('_', ' ')}")
 
     # --- advisories -------------------------------------------------------------------------
 
