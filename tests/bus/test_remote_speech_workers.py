@@ -92,7 +92,7 @@ def test_an_attached_recogniser_gets_every_sample_and_speaks_for_the_run(
         assert recogniser.wait(timeout=10.0) == 0
     sent = logged(result.folder, "radio/", Transmission)
     heard = logged(result.folder, "asr/", Transcript)
-    assert len(sent) == 2
+    assert len(sent) >= 2
     assert [(one.id, one.engine) for one in heard] == [(one.id, "hashing") for one in sent]
     assert [one.text for one in heard] == [f"{one.sha256} AAL123 DAL456" for one in sent]
     assert result.summary.modalities["asr"] == "on"

@@ -73,7 +73,7 @@ def test_who_hears_an_advisory_acts_after_its_instruction_has_been_said(
     out = tmp_path / "run"
     airhilt.run(
         scenario, out=out, advisory_channel=channel, crews=crews, latency="fixed", cameras=False,
-        report=False,
+        report=False, recipients="crew",
     )  # fmt: skip
     ends = instruction_ends(out, channel)
     reactions = 0

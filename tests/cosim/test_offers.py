@@ -128,16 +128,16 @@ def test_what_goes_with_the_own_call_is_offered_when_that_is_due(tmp_path: Path)
 
 
 def test_an_offer_that_cannot_be_done_yet_stays(tmp_path: Path) -> None:
-    """A driver who stands cannot go on."""
+    """A driver who stands where no taxiway leads on cannot cross."""
     given = [
         said("Washington_Tower", 5.0, "Ops one, Washington Tower, cross runway zero one."),
-        act("OPS1", 20.0, "fly", command={"action": "continue"}),
+        act("OPS1", 20.0, "fly", command={"action": "cross", "runway": "01"}),
     ]
     log = logged(tower(30.0), tmp_path / "run", ["tower", "OPS1"], given)
     assert [one["subject"] for one in contents(log, "truth/event") if one["kind"] == "unable"] == [
         "OPS1"
     ]
-    assert [one["command"]["action"] for one in states(log, "OPS1")[-1]["offers"]] == ["continue"]
+    assert [one["command"]["action"] for one in states(log, "OPS1")[-1]["offers"]] == ["cross"]
 
 
 def test_who_leaves_takes_nothing_along_that_a_call_had_for_the_seat(tmp_path: Path) -> None:

@@ -101,17 +101,7 @@ def test_words_that_mean_what_the_script_has_let_it_be_done(
     log = logged(tower(60.0), tmp_path / "run", ["tower"], given)
     commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
     by_driver = [json.loads(one["text"])["action"] for one in commands if one["subject"] == "OPS1"]
-    assert by_driver == (["taxi"] if drives else ["hold_position"])
-
-
-@pytest.mark.parametrize("condition", ["behind the departing seven three seven, ", ""])
-def test_who_clears_on_a_condition_is_told_that_the_crew_waits(
-    tmp_path: Path, condition: str
-) -> None:
-    words = f"American one two three, {condition}line up and wait runway zero one"
-    log = logged(tower(20.0), tmp_path / "run", ["tower"], [said("Washington_Tower", 5.0, words)])
-    waits = "AAL123 reads a condition back and waits. Say it again when it is met."
-    assert notices(log, "Washington_Tower") == ([waits] if condition else [])
+    assert by_driver == (["taxi"] if drives else ["taxi_to"])
 
 
 def test_a_ground_controller_has_the_taxiways_and_nothing_of_the_tower(tmp_path: Path) -> None:

@@ -186,7 +186,7 @@ def test_the_call_on_the_air_and_the_active_advisory_are_marked(
     assert "AAL123" in page.evaluate(current.format("calls"))
     page.evaluate("document.querySelector('#advisories button').click()")
     marked = page.evaluate(current.format("advisories"))
-    assert "traffic DAL456" in marked
+    assert "Traffic DAL456" in marked
     assert "Rests on" in marked
 
 

@@ -141,7 +141,7 @@ def test_a_channel_that_fails_is_the_loss_of_the_radio_too(
     assert {one.samples for one in rows(result, "radio/", Transmission)} == {0}
 
 
-@pytest.mark.parametrize("calls", [4, 100])
+@pytest.mark.parametrize("calls", [5, 100])
 def test_a_replay_asks_no_service_again(calls: int, short: Scenario, tmp_path: Path) -> None:
     given = [b'{"text": "Washington Center."}', b"nonsense"]
 

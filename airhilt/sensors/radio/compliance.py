@@ -16,7 +16,7 @@ from airhilt.scenario.models import ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
-from airhilt.world.actors.orders import subject_of
+from airhilt.world.actors.orders import ON_THE_WAY, Order, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
 COMPLY_AFTER_S = 2.0
@@ -86,7 +86,8 @@ class Compliance:
         listener = self._stations.listener(call.frequency_khz)
         orders = listener.orders_of(taken.instructions, self._stations.bound_runway(actor))
         commands: dict[Command, None] = {}
-        accepted, unable = [], []
+        accepted: list[Order] = []
+        unable = []
         refused: dict[str, str | None] = {}
         """Why the first order about each subject cannot be done; None if it can."""
         for order in orders:
@@ -99,14 +100,17 @@ class Compliance:
             if why is not None:
                 unable.append(why)
                 continue
-            accepted.append(order.instruction)
+            accepted.append(order)
             if order.command is not None:
                 commands[order.command] = None
         scripted = tuple(
             ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S)
             for command in commands
         )
-        decision = Decision(scripted, tuple(accepted), tuple(dict.fromkeys(unable)))
+        if refused.get("surface") is not None:
+            accepted = [each for each in accepted if each.instruction.action not in ON_THE_WAY]
+        read_back = tuple(each.instruction for each in accepted)
+        decision = Decision(scripted, read_back, tuple(dict.fromkeys(unable)))
         return self._told(actor, decision)
 
     def _refusal(self, actor: str, command: Command) -> str | None:

@@ -78,7 +78,8 @@ class ReadbackPolicy:
         decision: Decision,
     ) -> None:
         """Go on with what follows from a call once a recipient has taken it."""
-        is_changed = bool(decision.unable) or understanding.kind == "otherwise"
+        is_in_other_words = call.is_of_person and call.scripted is not None and not call.commands
+        is_changed = bool(decision.unable) or understanding.kind == "otherwise" or is_in_other_words
         if self._stations.is_actor(listener) and is_changed:
             self._answer_otherwise(call, listener, decision)
         elif self._reads_back(call):

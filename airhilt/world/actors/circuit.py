@@ -25,7 +25,7 @@ LEAST_WIDTH_M = 1.0 * NAUTICAL_MILE
 """Least distance between the downwind leg and the runway, in m (FAA Airplane Flying Handbook, 8: a
 half to one mile)."""
 WIDTH_RADII = 2.5
-"""That distance for faster aircraft, in radii of the turns to base and to final: two, and a short
+"""Least distance of the downwind leg of faster aircraft, in turn radii: two turns and a short
 base leg between them; assumed."""
 WIDEST_PART = 2.0
 """Greatest distance of a downwind leg that is flown already, in parts of the usual one; assumed."""

@@ -76,6 +76,9 @@ DOES: Mapping[str, frozenset[str]] = {
 }
 """What other traffic does when it passes, and the words for it."""
 
+ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short"})
+"""Actions that are part of a taxi clearance in the same call."""
+
 
 Subject = Literal["level", "speed", "track", "approach", "radio", "surface"]
 _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
@@ -138,7 +141,7 @@ def orders_of(
     on_the_way = _on_the_way(now)
     orders = []
     for each in given:
-        is_part = on_the_way is not None and each.action in ("cross", "hold_short")
+        is_part = on_the_way is not None and each.action in ON_THE_WAY
         is_level = climbs and each.action == "altitude"
         is_level |= each.action == "heading" and (
             heading_deg is not None or (climbs and each.heading_deg is None)
@@ -243,50 +246,67 @@ def _command(
 
     `NotUnderstood` says what is missing.
     """
-    place, turn = instruction.position, instruction.turn
+    return (
+        _at_runway(instruction, bound_runway, level_ft)
+        or _in_circuit(instruction, bound_runway)
+        or _en_route(instruction)
+        or _flown(instruction, variation_deg)
+        or _on_ground(instruction, bound_runway)
+        or _on_radio(instruction)
+    )
+
+
+def _at_runway(
+    told: Instruction, bound_runway: str | None, level_ft: float | None
+) -> Command | None:
+    """Return the command of an aircraft at a runway."""
     climb = {} if level_ft is None else {"climb_to_ft": level_ft}
-
-    def runway() -> str:
-        if named := instruction.runway or bound_runway:
-            return named
-        raise NotUnderstood("say runway")
-
-    def named(what: str) -> str:
-        if place is None:
-            raise NotUnderstood(f"say {what}")
-        return place
-
-    match instruction.action:
-        # Aircraft at a runway.
+    match told.action:
         case "go_around" | "cancel_landing" | "missed_approach" | "cancel_approach":
             return GoAroundCommand(action="go_around", **climb)
         case "cancel_takeoff":
             return CancelTakeoffCommand(action="cancel_takeoff")
         case "line_up":
-            return LineUpCommand(action="line_up", runway=runway())
+            return LineUpCommand(action="line_up", runway=_runway(told, bound_runway))
         case "cleared_for_takeoff":
-            return TakeOffCommand(action="take_off", runway=runway(), **climb)
+            return TakeOffCommand(action="take_off", runway=_runway(told, bound_runway), **climb)
         case "cleared_to_land":
-            return LandCommand(action="land", runway=runway())
+            return LandCommand(action="land", runway=_runway(told, bound_runway))
         case "touch_and_go" | "cleared_option":
-            return LandCommand(action="land", runway=runway(), then="touch_and_go")
+            return LandCommand(
+                action="land", runway=_runway(told, bound_runway), then="touch_and_go"
+            )
         case "stop_and_go":
-            return LandCommand(action="land", runway=runway(), then="stop_and_go")
+            return LandCommand(
+                action="land", runway=_runway(told, bound_runway), then="stop_and_go"
+            )
         case "low_approach":
-            return LandCommand(action="land", runway=runway(), then="low_approach")
+            return LandCommand(
+                action="land", runway=_runway(told, bound_runway), then="low_approach"
+            )
         case "cleared_approach":
-            is_visual = instruction.approach == "visual"
+            is_visual = told.approach == "visual"
             kind = "visual" if is_visual else "straight_in"
-            return ApproachCommand(action="approach", runway=runway(), kind=kind)
+            return ApproachCommand(action="approach", runway=_runway(told, bound_runway), kind=kind)
         case "circle":
-            return ApproachCommand(action="approach", runway=runway(), kind="circling")
+            return ApproachCommand(
+                action="approach", runway=_runway(told, bound_runway), kind="circling"
+            )
         case "side_step":
-            return SideStepCommand(action="side_step", runway=runway())
-        # In the circuit, and en route.
+            return SideStepCommand(action="side_step", runway=_runway(told, bound_runway))
+    return None
+
+
+def _in_circuit(told: Instruction, bound_runway: str | None) -> Command | None:
+    """Return the command of an aircraft in the traffic circuit."""
+    place, turn = told.position, told.turn
+    match told.action:
         case "join":
             leg = _leg(place)
             side = turn or "left"
-            return JoinCommand(action="join", leg=leg, runway=runway(), side=side)
+            return JoinCommand(
+                action="join", leg=leg, runway=_runway(told, bound_runway), side=side
+            )
         case "extend":
             return ExtendCommand(action="extend", leg=_leg(place or "downwind"))
         case "short_approach":
@@ -295,81 +315,115 @@ def _command(
             return ReturnToFieldCommand(action="return_to_field")
         case "orbit":
             return OrbitCommand(action="orbit", turn=turn or "right")
+    return None
+
+
+def _en_route(told: Instruction) -> Command | None:
+    """Return the command of an aircraft about its route and its speed."""
+    turn = told.turn
+    match told.action:
         case "direct":
-            return DirectCommand(action="direct", to=named("the fix"))
+            return DirectCommand(action="direct", to=_named(told, "the fix"))
         case "hold_at":
-            return HoldAtCommand(action="hold_at", fix=named("the fix"), turn=turn or "right")
+            return HoldAtCommand(
+                action="hold_at", fix=_named(told, "the fix"), turn=turn or "right"
+            )
         case "own_navigation":
             return ResumeRouteCommand(action="resume_route")
+        case "speed" if told.speed_kt is not None:
+            return SpeedCommand(action="speed", cas_kt=told.speed_kt)
+        case "speed" if told.named == "normal":
+            return ResumeSpeedCommand(action="resume_speed")
+        case "mach" if told.mach is not None:
+            return MachCommand(action="mach", mach=told.mach)
+        case "resume_speed":
+            return ResumeSpeedCommand(action="resume_speed")
+        case "vertical_rate" if told.rate_fpm is not None:
+            return VerticalRateCommand(action="vertical_rate", vertical_rate_fpm=told.rate_fpm)
+        case "cross_fix" if told.altitude_ft is not None:
+            return CrossFixCommand(
+                action="cross_fix", fix=_named(told, "the fix"), altitude_ft=told.altitude_ft
+            )
+    return None
+
+
+def _flown(told: Instruction, variation_deg: float) -> Command | None:
+    """Return the command of an aircraft about its level or heading."""
+    match told.action:
         case "altitude":
-            if instruction.altitude_ft is None:
+            if told.altitude_ft is None:
                 raise NotUnderstood("say altitude")
             return AltitudeCommand(
                 action="altitude",
-                altitude_ft=instruction.altitude_ft,
-                vertical_rate_fpm=instruction.rate_fpm,
+                altitude_ft=told.altitude_ft,
+                vertical_rate_fpm=told.rate_fpm,
             )
         case "heading":
-            if instruction.heading_deg is None:
-                if place is None:
+            if told.heading_deg is None:
+                if told.position is None:
                     raise NotUnderstood("say heading")
                 return TurnCommand(action="turn", degrees=0.0)  # The present or runway heading.
-            track_deg = (instruction.heading_deg + variation_deg) % 360.0
+            track_deg = (told.heading_deg + variation_deg) % 360.0
             return TrackCommand(action="track", track_deg=track_deg)
-        case "turn_by" if instruction.turn_deg is not None:
-            degrees = -instruction.turn_deg if turn == "left" else instruction.turn_deg
+        case "turn_by" if told.turn_deg is not None:
+            degrees = -told.turn_deg if told.turn == "left" else told.turn_deg
             return TurnCommand(action="turn", degrees=degrees)
-        case "speed" if instruction.speed_kt is not None:
-            return SpeedCommand(action="speed", cas_kt=instruction.speed_kt)
-        case "speed" if instruction.named == "normal":
-            return ResumeSpeedCommand(action="resume_speed")
-        case "mach" if instruction.mach is not None:
-            return MachCommand(action="mach", mach=instruction.mach)
-        case "resume_speed":
-            return ResumeSpeedCommand(action="resume_speed")
-        case "vertical_rate" if instruction.rate_fpm is not None:
-            return VerticalRateCommand(
-                action="vertical_rate", vertical_rate_fpm=instruction.rate_fpm
-            )
-        case "cross_fix" if instruction.altitude_ft is not None:
-            return CrossFixCommand(
-                action="cross_fix", fix=named("the fix"), altitude_ft=instruction.altitude_ft
-            )
-        # On the ground.
+    return None
+
+
+def _on_ground(told: Instruction, bound_runway: str | None) -> Command | None:
+    """Return the command on the ground."""
+    place, turn = told.position, told.turn
+    match told.action:
         case "hold_position" | "stop":
             return HoldPositionCommand(action="hold_position")
         case "hold_short":
-            taxiway = instruction.hold_short or place
-            return HoldShortCommand(action="hold_short", runway=instruction.runway, taxiway=taxiway)
+            taxiway = told.hold_short or place
+            return HoldShortCommand(action="hold_short", runway=told.runway, taxiway=taxiway)
         case "cross":
-            return CrossCommand(action="cross", runway=instruction.runway, at=place)
-        case "proceed" if instruction.runway is not None:
-            return EnterCommand(action="enter", runway=instruction.runway, at=place)
+            return CrossCommand(action="cross", runway=told.runway, at=place)
+        case "proceed" if told.runway is not None:
+            return EnterCommand(action="enter", runway=told.runway, at=place)
         case "taxi" | "proceed":
-            if instruction.runway is None and place is None and not instruction.via:
+            if told.runway is None and place is None and not told.via:
                 return ContinueCommand(action="continue")
-            return TaxiToCommand(
-                action="taxi_to", runway=instruction.runway, place=place, via=instruction.via
-            )
+            return TaxiToCommand(action="taxi_to", runway=told.runway, place=place, via=told.via)
         case "vacate":
             return VacateCommand(action="vacate", exit=place, side=turn)
         case "backtrack":
-            return BacktrackCommand(action="backtrack", runway=runway())
+            return BacktrackCommand(action="backtrack", runway=_runway(told, bound_runway))
         case "follow":
-            return FollowCommand(action="follow", whom=named("whom to follow"))
+            return FollowCommand(action="follow", whom=_named(told, "whom to follow"))
         case "give_way":
-            return GiveWayCommand(action="give_way", to=named("whom to give way to"))
+            return GiveWayCommand(action="give_way", to=_named(told, "whom to give way to"))
         case "push_back":
             return PushBackCommand(action="push_back")
-        # On the radio.
+    return None
+
+
+def _on_radio(told: Instruction) -> Command | None:
+    """Return the command on the radio."""
+    match told.action:
         case "contact" | "monitor":
             return ContactCommand(
                 action="contact",
-                unit=place,
-                frequency_khz=instruction.frequency_khz,
-                calls=instruction.action == "contact",
+                unit=told.position,
+                frequency_khz=told.frequency_khz,
+                calls=told.action == "contact",
             )
     return None
+
+
+def _runway(told: Instruction, bound_runway: str | None) -> str:
+    if runway := told.runway or bound_runway:
+        return runway
+    raise NotUnderstood("say runway")
+
+
+def _named(told: Instruction, what: str) -> str:
+    if told.position is None:
+        raise NotUnderstood(f"say {what}")
+    return told.position
 
 
 def subject_of(command: Command) -> Subject:

@@ -96,11 +96,26 @@ def _ends(airport: Layout, command: TaxiToCommand) -> list[str]:
         return _holds_for(airport, command.runway, command.place, command.via)
     if command.place is None:
         raise Unable("say again, taxi to where")
+    if found := _holds_on(airport, command.place, command.hold_short):
+        return found
     if found := nodes_of(airport, command.place):
         return found
     known = [*airport.stands, *sorted({edge.taxiway for edge in airport.airport.taxiways.edges})]
     icao = airport.airport.icao
     raise Unable(f"unable, no {command.place} at {icao}{_nearest(command.place, known)}")
+
+
+def _holds_on(airport: Layout, place: str, hold_short: Sequence[str]) -> list[str]:
+    """Return the holding positions of a call such as "drive to D, hold short of runway 01"."""
+    wanted = set(_words(place))
+    return [
+        hold.name
+        for hold in airport.holds.values()
+        if hold.taxiway.lower() in wanted
+        and any(
+            name in (end.ident for end in airport.strips[hold.runway].ends) for name in hold_short
+        )
+    ]
 
 
 def _holds_for(airport: Layout, runway: str, place: str | None, via: Sequence[str]) -> list[str]:
