@@ -50,6 +50,9 @@ TAKE_OFF = {"action": "take_off", "runway": "01"}
 HOLDING_SHORT: dict[str, Any] = {
     "initial": {"type": "hold_short", "runway": "01", "taxiway": "A"}, "commands": [],
 }  # fmt: skip
+SHORT_OF_D = {
+    "initial": {"type": "hold_short", "runway": "01", "taxiway": "D"},
+}
 SHORT_OF_M = {
     "initial": {"type": "hold_short", "runway": "01", "taxiway": "M_west"},
 }
@@ -89,6 +92,11 @@ SITUATIONS: dict[str, tuple[str, dict[str, Any], float]] = {
     "landed": ("AAL123", on_final(1.0, LAND), 38.0),
     "climb_out": ("AAL123", lined_up(TAKE_OFF), 60.0),
     "en_route": ("AAL123", EN_ROUTE, 4.0),
+    "short_of_d": ("AAL123", SHORT_OF_D, 4.0),
+    "final_cleared": ("AAL123", on_final(2.0, LAND), 4.0),
+    "taxiing_behind": (
+        "AAL123", standing("gate_c28", 90.0, {"action": "taxi_to", "runway": "01"}), 15.0,
+    ),
     "vehicle_holding_short": ("OPS1", SHORT_OF_M, 4.0),
     "vehicle_on_runway": ("OPS1", ON_RUNWAY, 4.0),
     "vehicle_at_station": ("OPS1", standing("fire_station"), 4.0),
@@ -172,6 +180,9 @@ class Seen:
     def refuses(self) -> bool:
         return "unable" in self.words
 
+    def answers_at_all(self) -> bool:
+        return bool(self.answers)
+
     def asks(self) -> bool:
         return "say" in self.words
 
@@ -197,6 +208,9 @@ class Seen:
     def stands_still(self) -> bool:
         return speed_m_s(self.states[-1]) < 0.5 and bool(self.states[-1]["on_ground"])
 
+    def moves(self) -> bool:
+        return bool(point(self.states[0]).distance(point(self.states[-1])) > 50.0)
+
     def on_runway(self, ident: str, state: dict[str, Any]) -> bool:
         strip = LAYOUT.strip_of(ident)
         return bool(state["on_ground"]) and bool(strip.protected_area.contains(point(state)))
@@ -210,7 +224,8 @@ class Seen:
         return any(was_on) and not was_on[-1]
 
     def holds_short_of(self, runway: str) -> bool:
-        return self.stands_still() and not any(self.on_runway(runway, s) for s in self.states)
+        was_on = any(self.on_runway(runway, state) for state in self.states)
+        return self.stands_still() and not was_on
 
     def vacates(self, at: str | None = None) -> bool:
         runways = [strip.ends[0].ident for strip in LAYOUT.strips.values()]
@@ -243,8 +258,13 @@ class Seen:
             for state in self.states
         )  # fmt: skip
 
+    def takes_off_again(self) -> bool:
+        """Return whether it lands and flies again."""
+        landed = [state["on_ground"] for state in self.states]
+        return any(landed) and not landed[-1]
+
     def takes_off(self) -> bool:
-        return bool(self.states[0]["on_ground"]) and not self.states[-1]["on_ground"]
+        return bool(self.states[0]["on_ground"] and not self.states[-1]["on_ground"])
 
     def goes_around(self) -> bool:
         lowest = min(range(len(self.states)), key=lambda i: float(self.states[i]["altitude_m"]))

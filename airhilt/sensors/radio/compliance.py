@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import partial
 from typing import NamedTuple
 
-from airhilt.commands import Command, ContactCommand
+from airhilt.commands import Command, ContactCommand, GoAroundCommand
 from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
 from airhilt.scenario.models import ScriptedCommand
@@ -95,7 +95,9 @@ class Compliance:
             if why is None and order.command is not None:
                 subject = subject_of(order.command)
                 if subject not in refused:
-                    refused[subject] = self._refusal(actor, order.command)
+                    breaks_off = any(isinstance(each, GoAroundCommand) for each in commands)
+                    why = None if breaks_off else self._refusal(actor, order.command)
+                    refused[subject] = why  # Where it goes around, it is not where it was.
                 why = refused[subject]
             if why is not None:
                 unable.append(why)

@@ -319,9 +319,9 @@ class Approaches:
         is_along = circuit.is_on(leg, self._here, self._aircraft.state.track_rad)
         if self._phase == "glide" or leg in ("base", "final") or (on == leg and not is_along):
             raise Unable(f"unable, turning {'final' if self._phase == 'glide' else 'base'}")
-        if on != leg and not left:
+        if on != leg and not left and not is_along:
             raise Unable(f"unable, on {on}")
-        way = () if on == leg else self._through(*left)
+        way = () if on == leg or is_along else self._through(*left)
         end, kind = circuit.final.runway, self._aircraft.kind
         altitude_m = end.elevation_m + max(circuit_height_m(kind), self._circling_ft() * FOOT)
 

@@ -1,0 +1,31 @@
+"""Ordinary calls of a tower, each in its situation: what is seen of each afterwards.
+
+They take a minute: ``pytest -m slow tests/station/test_tower_calls.py``.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from seats import logged, said
+from tower_calls import SITUATIONS, Seen, scenario_of
+
+CALLS: list[dict[str, Any]] = json.loads(
+    Path(__file__).with_name("tower_calls.json").read_text(encoding="utf-8")
+)["calls"]
+"""Calls with the paragraph of the manual that has them: FAA Order JO 7110.65 or ICAO Doc 4444."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("call", CALLS, ids=[call["id"] for call in CALLS])
+def test_what_a_tower_says_is_done_or_refused(call: dict[str, Any], tmp_path: Path) -> None:
+    callsign, _, at_s = SITUATIONS[call["situation"]]
+    scenario = scenario_of(call["situation"], call.get("traffic", ()), at_s + call["within_s"])
+    told = [said("Washington_Tower", at_s, call["text"])]
+    seen = Seen(logged(scenario, tmp_path / "run", ["tower"], told), callsign, at_s)
+    for expected in call["expected"]:
+        assert seen.check(**expected), (expected, seen.words)
