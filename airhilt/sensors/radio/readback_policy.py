@@ -64,8 +64,12 @@ class ReadbackPolicy:
         self._speakers.say_later(call, ANSWER_AFTER_S)
 
     def call_again(self, call: RadioCall) -> None:
-        """Let the speaker of a call make it once more, as if its addressee had asked for it."""
-        self._repeat(call, ANSWER_AFTER_S)
+        """Let the speaker of a call make it once more, because its addressee has asked for it."""
+        self._give_again(call, ANSWER_AFTER_S)
+
+    def _give_again(self, call: RadioCall, after_s: float) -> None:
+        if not call.is_of_person and call.first.times_given < MOST_TIMES:
+            self._say_again_later(call, after_s)
 
     # --- reading back -----------------------------------------------------------------------
 
@@ -150,10 +154,10 @@ class ReadbackPolicy:
     def _ask_again(self, call: RadioCall, listener: str) -> None:
         """Let an addressee who is not sure of a call ask for it again."""
         if call.asks_for is not None:
-            self._repeat(call.asks_for, REPEAT_AFTER_S)
-        if not (call.is_of_person or self._may_repeat(call)):
-            if self._is_wanted(call):
-                self._give_up(call, listener, self._answers.unreadable(listener, call.speaker))
+            self._give_again(call.asks_for, REPEAT_AFTER_S)
+            return
+        if not call.is_of_person and call.first.times_given >= MOST_TIMES:
+            self._give_up(call, listener, self._answers.unreadable(listener, call.speaker))
             return
         question = call.reply(
             f"say-again-{call.times_said}",
@@ -179,9 +183,12 @@ class ReadbackPolicy:
         """Let the speaker repeat a call that its addressee has not taken."""
         if listener in call.deaf and not self._radio.controller_checks_readbacks:
             return  # Nobody notices: that is the failure of the scenario.
-        if call.asks_for is not None:
-            self._repeat(call.asks_for, REPEAT_AFTER_S)
-        if self._may_repeat(call):
+        asked = call.asks_for
+        if asked is not None and self._is_wanted(asked):
+            self._repeat(asked, REPEAT_AFTER_S)
+        elif asked is not None and call.times_said < MOST_TIMES:
+            self._say_again_later(call, REPEAT_AFTER_S)
+        elif self._may_repeat(call):
             self._repeat(call, REPEAT_AFTER_S)
         elif self._is_wanted(call):
             self._give_up(call, call.speaker, self._answers.no_reply(call.speaker, listener))
@@ -209,7 +216,11 @@ class ReadbackPolicy:
         return self._is_wanted(call) and call.first.times_given < MOST_TIMES
 
     def _repeat(self, call: RadioCall, after_s: float) -> None:
-        if self._may_repeat(call) and not call.is_due_again:
+        if self._may_repeat(call):
+            self._say_again_later(call, after_s)
+
+    def _say_again_later(self, call: RadioCall, after_s: float) -> None:
+        if not call.is_due_again:
             call.is_due_again = True
             spread = stream(self._seed, f"repeat/{call.id}", call.times_said).random()
             self._speakers.say_later(call, after_s + REPEAT_SPREAD_S * spread)
