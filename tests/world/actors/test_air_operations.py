@@ -24,6 +24,7 @@ from airhilt.world.flight import Aircraft, Atmosphere, InitialCondition, load_ai
 from airhilt.world.flight.state import OnGround
 from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite
+from breadth import mostly_slow
 
 COMMAND = TypeAdapter(Command)
 CALM = Atmosphere()
@@ -207,7 +208,7 @@ COMMANDS: tuple[dict[str, Any], ...] = (
 )
 
 
-@pytest.mark.parametrize("phase", PHASES)
+@pytest.mark.parametrize("phase", mostly_slow(PHASES, "glide", "takeoff_roll"))
 def test_in_every_phase_a_command_is_refused_in_words_or_begun_and_flown_safely(
     phase: str, subtests: pytest.Subtests
 ) -> None:
@@ -242,7 +243,7 @@ def test_in_an_emergency_descent_a_crew_goes_its_way_down_first() -> None:
 
 
 @pytest.mark.parametrize("kind", ["737", "c172p"])
-@pytest.mark.parametrize("runway", ["33", "19", "04"])
+@pytest.mark.parametrize("runway", mostly_slow(["33", "19", "04"], "33"))
 def test_cleared_to_land_on_another_runway_it_lands_on_that_one(kind: str, runway: str) -> None:
     flight = on_final(kind, 5.0, air=WIND)
     assert flight.tell("approach", runway=runway, kind="circling") is None
@@ -273,7 +274,7 @@ def test_wings_are_level_on_the_final_course_at_300_ft_after_circling() -> None:
     assert abs(final.angle_rad(flight.aircraft.state.track_rad)) < 5 * DEGREE
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", mostly_slow(range(8), 0, 1))
 def test_from_wherever_it_flies_it_lands_where_it_is_cleared_or_refuses(seed: int) -> None:
     draw = random.Random(seed)
     kind, runway = draw.choice(["737", "B747", "c172p"]), draw.choice(["01", "19", "33", "15"])
@@ -295,7 +296,9 @@ def test_from_wherever_it_flies_it_lands_where_it_is_cleared_or_refuses(seed: in
 # --- the circuit ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("leg", ["upwind", "crosswind", "downwind", "base", "final"])
+@pytest.mark.parametrize(
+    "leg", mostly_slow(["upwind", "crosswind", "downwind", "base", "final"], "downwind")
+)
 @pytest.mark.parametrize("kind", ["737", "c172p"])
 def test_it_joins_a_leg_of_the_circuit_and_lands(kind: str, leg: str) -> None:
     flight = told(en_route(kind, before_nm=5.0, altitude_ft=1_800.0, air=WIND), "join",
