@@ -145,9 +145,16 @@ class Compliance:
         if self._decided.get((call.first.id, actor)) == commands and is_latest:
             return
         self._decided[call.first.id, actor] = commands
+        self._latest |= {(actor, subject): call for subject in subjects}
+        for other in latest:
+            if other is not None and not self._is_latest_of_any(other, actor):
+                other.withdrawn_for.add(actor)
         for scripted in commands:
-            self._latest[actor, subject_of(scripted.command)] = call
             self._do_later(call, scripted)
+
+    def _is_latest_of_any(self, call: RadioCall, actor: str) -> bool:
+        """Return whether a call is the last one to an actor about any subject."""
+        return any(name == actor and one is call for (name, _), one in self._latest.items())
 
     def _offer(self, actor: str, call: str, command: Command) -> bool:
         """Offer the person who acts for an actor a command; return False if there is none."""

@@ -97,11 +97,19 @@ class FrequencyArbiter:
         self._began = self._ended = lambda _on_air: None
         return cut
 
-    def say(self, utterance: Utterance, *, has_waited: bool = False) -> None:
-        """Say something as soon as its speaker finds the frequency free."""
+    def say(
+        self,
+        utterance: Utterance,
+        is_wanted: Callable[[], bool] = lambda: True,
+        *,
+        has_waited: bool = False,
+    ) -> None:
+        """Say something as soon as its speaker finds the frequency free, if it is wanted then."""
+        if not is_wanted():
+            return
         heard = self._heard_by(utterance, has_waited)
         if heard:
-            again = partial(self.say, utterance, has_waited=True)
+            again = partial(self.say, utterance, is_wanted, has_waited=True)
             self._after_all(heard, again)
             return
         if utterance.speech is None:

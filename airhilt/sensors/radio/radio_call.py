@@ -92,6 +92,12 @@ class RadioCall:
             return None
         return self.scripted.declared
 
+    @property
+    def is_outdated(self) -> bool:
+        """True for an answer to what its speaker has been told otherwise about since."""
+        told = self.in_reply_to
+        return self.scripted is None and told is not None and self.speaker in told.withdrawn_for
+
     def recipients(self) -> list[str]:
         """Return who has yet to take it: its addressee, and all that it gives commands to."""
         names = (self.addressed, *(scripted.actor for scripted in self.meant))
@@ -132,6 +138,10 @@ class Speakers:
         """Make a call after a delay in s."""
         self._context.director.after(delay_s, partial(self.say, call))
 
+    def is_being_made(self, call: RadioCall) -> bool:
+        """Return whether a call is on the air, or waits for a free frequency."""
+        return call.transmission in self.on_air
+
     def say(self, call: RadioCall) -> None:
         """Make a call."""
         if not self._context.stations.is_there(call.speaker):
@@ -156,7 +166,15 @@ class Speakers:
         )
         call.transmission = utterance.id
         self.on_air[utterance.id] = self.said[utterance.id] = call
-        self._arbiter.say(utterance)
+        self._arbiter.say(utterance, partial(self._is_wanted, call, utterance.id))
+
+    def _is_wanted(self, call: RadioCall, transmission: str) -> bool:
+        """Return whether a call that waits for the frequency is still to be made."""
+        if call.is_outdated:
+            self.on_air.pop(transmission, None)
+            self.said.pop(transmission, None)
+            return False
+        return True
 
 
 def calls_of(scenario: Scenario, lines: Sequence[EffectiveLine]) -> dict[str, RadioCall]:

@@ -60,8 +60,8 @@ class ReadbackPolicy:
             case "not_for_me" if listener == call.addressed:
                 self._unanswered(call, listener)
 
-    def _answer(self, call: RadioCall) -> None:
-        self._speakers.say_later(call, ANSWER_AFTER_S)
+    def _answer(self, call: RadioCall, after_s: float = ANSWER_AFTER_S) -> None:
+        self._speakers.say_later(call, after_s)
 
     def call_again(self, call: RadioCall) -> None:
         """Let the speaker of a call make it once more, because its addressee has asked for it."""
@@ -151,8 +151,8 @@ class ReadbackPolicy:
 
     # --- asking and calling again -----------------------------------------------------------
 
-    def _ask_again(self, call: RadioCall, listener: str) -> None:
-        """Let an addressee who is not sure of a call ask for it again."""
+    def _ask_again(self, call: RadioCall, listener: str, after_s: float = ANSWER_AFTER_S) -> None:
+        """Let an addressee who is not sure of a call, or waits for it, ask for it again."""
         if call.asks_for is not None:
             self._give_again(call.asks_for, REPEAT_AFTER_S)
             return
@@ -167,7 +167,7 @@ class ReadbackPolicy:
             asks_for=None if call.is_of_person else call,
         )
         self._questions[frozenset((listener, call.speaker))] = call
-        self._answer(question)
+        self._answer(question, after_s)
 
     def has_question(self, one: str, other: str | None) -> bool:
         """Return whether one of two waits for what it has asked the other to say again."""
@@ -190,6 +190,8 @@ class ReadbackPolicy:
             self._say_again_later(call, REPEAT_AFTER_S)
         elif self._may_repeat(call):
             self._repeat(call, REPEAT_AFTER_S)
+        elif self._questions.get(frozenset((listener, call.speaker))) is call:
+            self._ask_again(call, listener, REPEAT_AFTER_S)
         elif self._is_wanted(call):
             self._give_up(call, call.speaker, self._answers.no_reply(call.speaker, listener))
 
@@ -220,7 +222,7 @@ class ReadbackPolicy:
             self._say_again_later(call, after_s)
 
     def _say_again_later(self, call: RadioCall, after_s: float) -> None:
-        if not call.is_due_again:
+        if not call.is_due_again and not self._speakers.is_being_made(call):
             call.is_due_again = True
             spread = stream(self._seed, f"repeat/{call.id}", call.times_said).random()
             self._speakers.say_later(call, after_s + REPEAT_SPREAD_S * spread)

@@ -127,6 +127,26 @@ def test_a_question_that_nobody_hears_does_not_end_the_matter() -> None:
     ]  # fmt: skip
 
 
+def test_who_asked_for_a_call_and_missed_it_asks_once_more() -> None:
+    heard = {("readback", TOWER): UNSURE, ("readback.repeat-1", TOWER): MISSED}
+    world = World(CLEARANCE, READBACK, heard=heard).run()
+    assert world.said() == [
+        "clearance", "readback", "readback.say-again-1", "readback.repeat-1",
+        "readback.say-again-2", "readback.repeat-2",
+    ]  # fmt: skip
+
+
+def test_what_was_replaced_before_it_was_read_back_is_not_read_back_any_more() -> None:
+    end_s = World(CLEARANCE).run().spoken("clearance").t_end_ns / SECOND_NS
+    descend = line(
+        "descend", end_s + 0.5, TOWER, "AAL123",
+        "American one two three, descend and maintain flight level two three zero.",
+        commands=[{"actor": "AAL123", "command": CLIMB | {"altitude_ft": 23000}}],
+    )  # fmt: skip
+    world = World(CLEARANCE, descend, readbacks="generated").run()
+    assert world.said() == ["clearance", "descend", "descend.readback"]
+
+
 @pytest.mark.parametrize(("heard", "end"), [(MISSED, "no reply heard"), (UNSURE, "unreadable")])
 def test_a_call_that_is_never_taken_is_said_twice_the_last_time_and_then_given_up(
     heard: Heard, end: str
@@ -294,6 +314,14 @@ def test_a_blocked_call_that_is_about_to_be_repeated_is_not_asked_for(recipient:
     assert [name for name in world.said() if name.startswith("clearance")] == [
         "clearance", "clearance.repeat-1"
     ]  # fmt: skip
+
+
+def test_a_call_that_is_on_the_air_is_not_made_again_because_it_is_asked_for() -> None:
+    prompt = {TOWER: {"reaction_median_s": 3.0, "reaction_sigma": 0.0}}
+    world = World(CLEARANCE, READBACK, controllers=prompt)
+    asked(world, "ATC", "clearance", t_s=8.0)
+    world.run_until(60.0)
+    assert world.said() == ["clearance", "readback"]
 
 
 def test_a_request_to_confirm_what_was_never_said_is_left_alone() -> None:
