@@ -114,7 +114,7 @@ AdvisoryKind = Literal[
 CONTROLLER = "ATC"
 """Recipient of the advisories to the controller."""
 Told = Literal["crew", "controller", "both"]
-"""Who is told of conflicts: the crews and drivers concerned, the controller, or both."""
+"""Recipients of advisories about conflicts: crews and drivers, the controller, or both."""
 
 
 class Advisory(Message):

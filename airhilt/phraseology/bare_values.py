@@ -99,7 +99,7 @@ def _is_then(text: str, end: int) -> bool:
 
 
 class _Around(NamedTuple):
-    """What the words around a number show it to be."""
+    """Meaning of a number, as the words around it show."""
 
     is_first: bool
     """True if "then" stands behind it."""

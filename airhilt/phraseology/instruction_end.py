@@ -32,7 +32,7 @@ Detail = tuple[str, object, object, object, object, object]
 
 
 class _Details(NamedTuple):
-    """What of a recommendation a text gives."""
+    """Details of a recommendation that a text gives."""
 
     given: frozenset[Detail]
     is_addressed: bool

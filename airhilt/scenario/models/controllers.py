@@ -11,7 +11,7 @@ from airhilt.quantities import FrequencyKhz, Share
 from airhilt.scenario.models.actors import Reactions
 
 Alerting = AdvisoryKind | Literal["conflict_alert"]
-"""What a controller acts on: a kind of advisory, or the conflict alert of the world."""
+"""Alert that a controller acts on: a kind of advisory, or the conflict alert of the world."""
 
 
 class Controller(Reactions):

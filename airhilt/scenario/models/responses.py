@@ -15,8 +15,8 @@ from airhilt.quantities import Number, Share
 from airhilt.scenario.models.base import Model
 
 Channel = Literal["ra", "assistant", "controller"]
-"""What tells somebody to act: a resolution advisory or another alert of equipment, an advisory of
-the assistant, or an urgent call of a controller."""
+"""Source of what somebody is told to do: a resolution advisory or another alert of equipment, an
+advisory of the assistant, or an urgent call of a controller."""
 
 
 ResponseModelName = Literal["ideal", "icao", "observed"]

@@ -32,11 +32,11 @@ class Decision(NamedTuple):
     """Decision of an actor about a call that it has taken."""
 
     commands: tuple[ScriptedCommand, ...] = ()
-    """What it does."""
+    """Commands that it carries out."""
     accepted: tuple[Instruction, ...] = ()
-    """What it reads back."""
+    """Instructions that it reads back."""
     unable: tuple[str, ...] = ()
-    """What it says about the rest: why it cannot do it, or what it asks before it can."""
+    """Words about the rest: why it cannot do it, or what it asks before it can."""
 
 
 class Compliance:
@@ -58,9 +58,8 @@ class Compliance:
         """Calls, and actors, of which was told that there is no response."""
         self._latest: dict[tuple[str, str], RadioCall] = {}
         """The last call about each subject to each actor."""
-
         self._decided: dict[tuple[str, str], tuple[ScriptedCommand, ...]] = {}
-        """What actors have decided to do of calls, by the ids of the calls as they were first."""
+        """Commands that actors have decided on, by the ids of the calls as they were first."""
 
     # --- deciding ---------------------------------------------------------------------------
 

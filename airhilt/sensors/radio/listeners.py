@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Literal
 
@@ -221,12 +222,13 @@ class Listeners:
         self._publish_truth(said, listener, understanding, text, source)
         if text and not self._stations.is_actor(listener):
             self._heard_by_unit(call, listener, text)
-        decision = Decision()
-        kind = understanding.kind
-        if kind in ("as_said", "otherwise") and self._stations.is_actor(listener):
+        decision, kind = Decision(), understanding.kind
+        if kind in ("as_said", "otherwise"):
             taken = understanding.call or self._listener(call).parse(said.text)
-            decision = self._compliance.decide(call, listener, taken, as_said=kind == "as_said")
-            self._compliance.comply(call, listener, decision.commands)
+            understanding = replace(understanding, call=taken)
+            if self._stations.is_actor(listener):
+                decision = self._compliance.decide(call, listener, taken, as_said=kind == "as_said")
+                self._compliance.comply(call, listener, decision.commands)
         self._policy.follow_up(call, said, listener, understanding, decision)
 
     def _publish_truth(

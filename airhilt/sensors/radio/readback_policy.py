@@ -87,7 +87,7 @@ class ReadbackPolicy:
         if self._stations.is_actor(listener) and is_changed:
             self._answer_otherwise(call, listener, decision)
         elif self._reads_back(call):
-            self._read_back(call, said, listener, understanding, decision)
+            self._read_back(call, listener, understanding, decision)
         call.take(listener)
         if listener != call.addressed:
             return
@@ -117,19 +117,16 @@ class ReadbackPolicy:
         return self._radio.readbacks == "generated" or call.scripted is None or call.is_of_person
 
     def _read_back(
-        self,
-        call: RadioCall,
-        said: Utterance,
-        listener: str,
-        understanding: Understanding,
-        decision: Decision,
+        self, call: RadioCall, listener: str, understanding: Understanding, decision: Decision
     ) -> None:
         """Let somebody answer a call that no line of the script answers."""
         if call.answer is not None or self.readback_in_script(call, listener) is not None:
             return
         if call.in_reply_to is not None and call.gives_again is None:
             return
-        taken = understanding.call or self._stations.listener(call.frequency_khz).parse(said.text)
+        taken = understanding.call
+        if taken is None:
+            return
         is_to_crew = self._stations.is_actor(listener) and not self._stations.is_actor(call.speaker)
         if taken.kind == "hail":
             text = self._answers.hail(listener, call.speaker)
@@ -185,11 +182,11 @@ class ReadbackPolicy:
             return  # Nobody notices: that is the failure of the scenario.
         asked = call.asks_for
         if asked is not None and self._is_wanted(asked):
-            self._repeat(asked, REPEAT_AFTER_S)
-        elif asked is not None and call.times_said < MOST_TIMES:
+            self._give_again(asked, REPEAT_AFTER_S)
+        elif (asked is not None and call.times_said < MOST_TIMES) or (
+            self._is_wanted(call) and call.first.times_given < MOST_TIMES
+        ):
             self._say_again_later(call, REPEAT_AFTER_S)
-        elif self._may_repeat(call):
-            self._repeat(call, REPEAT_AFTER_S)
         elif self._questions.get(frozenset((listener, call.speaker))) is call:
             self._ask_again(call, listener, REPEAT_AFTER_S)
         elif self._is_wanted(call):
@@ -212,14 +209,6 @@ class ReadbackPolicy:
         """Return whether a call is made until it is taken; a person does that by itself."""
         is_wanted = call.is_repeated or self._radio.controller_checks_readbacks
         return is_wanted and call.asks_for is None and not call.is_of_person
-
-    def _may_repeat(self, call: RadioCall) -> bool:
-        """Return whether a call may be made again."""
-        return self._is_wanted(call) and call.first.times_given < MOST_TIMES
-
-    def _repeat(self, call: RadioCall, after_s: float) -> None:
-        if self._may_repeat(call):
-            self._say_again_later(call, after_s)
 
     def _say_again_later(self, call: RadioCall, after_s: float) -> None:
         if not call.is_due_again and not self._speakers.is_being_made(call):

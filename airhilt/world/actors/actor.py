@@ -12,6 +12,8 @@ from airhilt.scenario.models import ActorSpec, Channel
 from airhilt.world.mover import Mover
 
 Category = Literal["aircraft", "vehicle", "wildlife"]
+Act = Callable[[], None]
+"""Action of a command, once it is known that it can be done."""
 
 
 class Unable(Exception):

@@ -20,7 +20,7 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.actor import Act, Unable
 from airhilt.world.actors.circuit import (
     STABLE_CIRCLING_FT,
     STABLE_FT,
@@ -37,7 +37,6 @@ from airhilt.world.actors.runway_operations import (
     APPROACHING,
     CAPTURE_ANGLE_RAD,
     CAPTURE_DISTANCE_M,
-    Act,
     RunwayOperations,
 )
 from airhilt.world.flight.aircraft import Aircraft

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from airhilt.commands import BehindCommand, Command
-from airhilt.world.actors.ground_operations import Act
+from airhilt.world.actors.actor import Act
 from airhilt.world.actors.traffic import Passage, Traffic
 
 

@@ -46,7 +46,7 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
-from airhilt.world.actors.actor import Actor, Reaction, Unable
+from airhilt.world.actors.actor import Act, Actor, Reaction, Unable
 from airhilt.world.actors.air_phases import refusal_in_phase
 from airhilt.world.actors.approaches import Approaches
 from airhilt.world.actors.behind import BehindTraffic
@@ -54,7 +54,7 @@ from airhilt.world.actors.departure import Departure
 from airhilt.world.actors.en_route_operations import EnRouteOperations
 from airhilt.world.actors.envelope import Envelope
 from airhilt.world.actors.ground_bodies import TaxiingAircraft
-from airhilt.world.actors.ground_operations import Act, GroundOperations
+from airhilt.world.actors.ground_operations import GroundOperations
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel, Response
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.actors.traffic import Traffic

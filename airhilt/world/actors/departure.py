@@ -19,9 +19,9 @@ from airhilt.commands import (
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import DEGREE, FOOT, KNOT
-from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.actor import Act, Unable
 from airhilt.world.actors.final_approach import FinalApproach
-from airhilt.world.actors.ground_operations import Act, GroundOperations
+from airhilt.world.actors.ground_operations import GroundOperations
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.actors.runway_turns import RunwayTurns
 from airhilt.world.actors.taxi_paths import hold_beside

@@ -21,10 +21,10 @@ from airhilt.commands import (
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, azimuth, distance_m
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.actor import Act, Unable
 from airhilt.world.actors.circuit import radius_now_m, turn_radius_m
 from airhilt.world.actors.envelope import LOWEST_HEIGHT_FT, Envelope
-from airhilt.world.actors.runway_operations import APPROACHING, Act
+from airhilt.world.actors.runway_operations import APPROACHING
 from airhilt.world.flight import standard_atmosphere
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.curves import Curve, Pose, line, shortest, turn

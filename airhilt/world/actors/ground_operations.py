@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -22,7 +22,7 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.units import KNOT
-from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.actor import Act, Unable
 from airhilt.world.actors.errand import Errand
 from airhilt.world.actors.ground_bodies import GroundBody
 from airhilt.world.actors.taxi_clearances import (
@@ -48,9 +48,6 @@ BEHIND_M = 60.0
 lengths of a narrow-body airliner."""
 TRAIL_STEP_M = 15.0
 """Distance between the places of who is followed that are kept, in m."""
-
-Act = Callable[[], None]
-"""What a command does, once it is known that it can be done."""
 
 
 class GroundOperations:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from airhilt.commands import Command, LandCommand, VacateCommand
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.actor import Unable
+from airhilt.world.actors.actor import Act, Unable
 from airhilt.world.actors.final_approach import FinalApproach
 from airhilt.world.actors.taxi_paths import (
     BRAKING_M_S2,
@@ -49,10 +49,6 @@ CAPTURE_ANGLE_RAD = math.radians(40.0)
 """Greatest angle to the final approach course at which it is joined, in rad."""
 CAPTURE_DISTANCE_M = 0.5 * NAUTICAL_MILE
 """Greatest distance from the extended centre line at which the final approach is joined, in m."""
-
-
-Act = Callable[[], None]
-"""What a command does, once it is known that it can be done."""
 
 
 class RunwayOperations:

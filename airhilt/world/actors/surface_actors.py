@@ -19,10 +19,10 @@ from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.messages import Advisory, EmitterCategory, HoldPosition, Recommendation
 from airhilt.scenario.models import Channel, VehicleSpec, WildlifeSpec
-from airhilt.world.actors.actor import Actor, Reaction, Unable
+from airhilt.world.actors.actor import Act, Actor, Reaction, Unable
 from airhilt.world.actors.behind import BehindTraffic
 from airhilt.world.actors.ground_bodies import DrivenVehicle
-from airhilt.world.actors.ground_operations import Act, GroundOperations
+from airhilt.world.actors.ground_operations import GroundOperations
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.traffic import Traffic
 from airhilt.world.mover import Creature, Driven

@@ -66,10 +66,11 @@ class Target:
 
 
 class Displays:
-    """What the displays of all units show. They know what is published, never what really is."""
+    """Displays of all units. They know what is published, never what really is."""
 
     def __init__(self) -> None:
-        self._targets: dict[str, Target] = {}
+        self._reports: dict[str, AdsbReport | SurfaceTrack] = {}
+        """Last report of each callsign; targets are made of it when somebody looks."""
         self._runways: dict[str, RunwayBriefing] = {}
         self._areas: dict[str, Polygon] = {}
         self._elevation_m = 0.0
@@ -82,24 +83,8 @@ class Displays:
     def take(self, message: Message) -> None:
         """Take in a message of surveillance, or the briefing."""
         match message:
-            case AdsbReport(callsign=str() as callsign):
-                self._show(
-                    callsign,
-                    (message.latitude_deg, message.longitude_deg),
-                    message.altitude_ft,
-                    (message.ground_speed_kt, message.track_deg, message.vertical_rate_fpm),
-                    message.t_adsb_in_ns,
-                    on_ground=message.on_ground,
-                )
-            case SurfaceTrack(callsign=str() as callsign):
-                self._show(
-                    callsign,
-                    (message.latitude_deg, message.longitude_deg),
-                    message.altitude_ft,
-                    (message.ground_speed_kt, message.track_deg or 0.0, 0.0),
-                    message.t_track_ns,
-                    on_ground=message.on_ground is not False,
-                )
+            case AdsbReport(callsign=str() as callsign) | SurfaceTrack(callsign=str() as callsign):
+                self._reports[callsign] = message
             case Briefing():
                 self._brief(message)
 
@@ -118,40 +103,37 @@ class Displays:
             self._runways = {each.ident: each for each in airport.runways}
             self._areas = {each.ident: Polygon(each.protected_area) for each in airport.runways}
 
-    def _show(
-        self,
-        callsign: str,
-        place_deg: tuple[float, float],
-        altitude_ft: float | None,
-        motion: tuple[float, float, float],
-        t_ns: int,
-        *,
-        on_ground: bool,
-    ) -> None:
-        speed_kt, track_deg, rate_fpm = motion
-        is_high = altitude_ft is not None and not on_ground
-        self._targets[callsign] = Target(
+    def _target_of(self, callsign: str, report: AdsbReport | SurfaceTrack) -> Target:
+        """Return the target of a report, at the time of the report."""
+        rate_fpm = 0.0
+        if isinstance(report, AdsbReport):
+            rate_fpm, on_ground = report.vertical_rate_fpm, report.on_ground
+        else:
+            on_ground = report.on_ground is not False
+        is_high = report.altitude_ft is not None and not on_ground
+        speed_m_s, track_rad = report.ground_speed_kt * KNOT, (report.track_deg or 0.0) * DEGREE
+        return Target(
             callsign,
-            place_deg[0] * DEGREE,
-            place_deg[1] * DEGREE,
-            (altitude_ft or 0.0) * FOOT if is_high else self._elevation_m,
-            speed_kt * KNOT * math.cos(track_deg * DEGREE),
-            speed_kt * KNOT * math.sin(track_deg * DEGREE),
+            report.latitude_deg * DEGREE,
+            report.longitude_deg * DEGREE,
+            (report.altitude_ft or 0.0) * FOOT if is_high else self._elevation_m,
+            speed_m_s * math.cos(track_rad),
+            speed_m_s * math.sin(track_rad),
             rate_fpm * FOOT_PER_MINUTE if is_high else 0.0,
             not is_high,
-            t_ns,
+            _time_ns(report),
         )
 
     def target(self, callsign: str, now_ns: int) -> Target | None:
         """Return the target of a callsign as it is now, None if it is on no display."""
-        found = self._targets.get(callsign)
-        if found is None or now_ns - found.t_ns > STALE_S * SECOND_NS:
+        report = self._reports.get(callsign)
+        if report is None or now_ns - _time_ns(report) > STALE_S * SECOND_NS:
             return None
-        return found.at(now_ns)
+        return self._target_of(callsign, report).at(now_ns)
 
     def targets(self, now_ns: int) -> list[Target]:
         """Return all targets on the displays, as they are now."""
-        found = (self.target(callsign, now_ns) for callsign in self._targets)
+        found = (self.target(callsign, now_ns) for callsign in self._reports)
         return [target for target in found if target is not None]
 
     def ceiling_ft(self, callsign: str) -> float:
@@ -199,3 +181,7 @@ class Displays:
             return None
         reach_m = FINAL_SLOPE * before_m + 100.0
         return before_m if max(aside_m, self.height_m(target)) <= reach_m else None
+
+
+def _time_ns(report: AdsbReport | SurfaceTrack) -> int:
+    return report.t_adsb_in_ns if isinstance(report, AdsbReport) else report.t_track_ns

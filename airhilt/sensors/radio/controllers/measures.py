@@ -1,4 +1,4 @@
-"""What a controller does about an advisory: an action for each whom it concerns.
+"""Measures of a controller about an advisory: an action for each whom it concerns.
 
 An advisory that recommends actions decides it. Without recommendations the controller judges by
 its strips and displays.
@@ -55,7 +55,7 @@ class Measure:
     callsign: str
     action: Recommendation
     traffic: Target | None = None
-    """What it is to be told of, if that is displayed."""
+    """Traffic that it is to be told of, if that is displayed."""
     is_alert: bool = True
     """True if the two are in unsafe proximity, or that cannot be told."""
 
