@@ -9,7 +9,7 @@ from typing import Any, Literal
 from airhilt.commands import Command
 from airhilt.cosim.context import RunContext
 from airhilt.cosim.setup import TICK_S
-from airhilt.errors import AirhiltError, failure_in
+from airhilt.errors import AirhiltError, ScenarioError, failure_in
 from airhilt.messages import (
     ActorCommand,
     ConflictPhase,
@@ -90,7 +90,12 @@ class WorldLoop:
             )
         self.monitor = self._conflict_monitor()
         self._compile = ConditionCompiler(
-            self._actors, self.monitor, self.runways, self.begun_lines, self.ended_lines
+            self._actors,
+            self.monitor,
+            self.runways,
+            self.begun_lines,
+            self.ended_lines,
+            context.setup.site,
         ).compile
         conflict = self._scenario.conflict
         if conflict is not None:
@@ -155,6 +160,14 @@ class WorldLoop:
     def refusal(self, callsign: str, command: Command) -> str | None:
         """Return why an actor cannot carry out a command now, as it says it; None: it can."""
         return self._actors[callsign].refusal(command)
+
+    def never(self, condition: Condition) -> str | None:
+        """Return why a condition cannot come true, as an actor says it; None: it can."""
+        try:
+            self._compile(condition)
+        except ScenarioError as error:
+            return f"unable, {error}"
+        return None
 
     def no_response(self, callsign: str, text: str) -> None:
         """Publish that an actor does not do what it was told."""

@@ -93,9 +93,9 @@ _CONSEQUENCE = re.compile(
 """Words of what is to be done under a condition that are no action of this grammar."""
 _AHEAD_OF_YOU = re.compile(r"(?:before|after|behind) (?:you|yours?|that)")
 """Conditions on what somebody else does: "one to depart before you"."""
-_AIRBORNE = re.compile(
-    r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)"
-)
+_TAKEN_OFF = r"(?:airborne|(?:after|on) departure|off the ground|in the air)"
+_AIRBORNE = re.compile(rf"(?<!\S){_TAKEN_OFF}(?!\S)")
+_ONLY_AIRBORNE = re.compile(rf"(?:(?:when|once) )?{_TAKEN_OFF}")
 _IN_A_WHILE = re.compile(r"(?: in)?(?: [0-9]+ minutes?)? *")
 AIRBORNE = "when airborne"
 _RECEIVED = re.compile(r"when receiving (?:the )?(.*?)(?: vor| v o r)?")
@@ -158,7 +158,8 @@ def _owners(
     if _AHEAD_OF_YOU.fullmatch(words) or (not after and _CONSEQUENCE.search(words)):
         return []
     if after and _AIRBORNE.search(words):  # Nobody is airborne before the take-off.
-        return [each for each in after if each.told.action not in CLEARANCES][:1]
+        later = [each for each in after if each.told.action not in CLEARANCES]
+        return later[:1] or (after[:1] if _ONLY_AIRBORNE.fullmatch(words) else [])
     if kind == "behind":
         is_again = not event and (before is None or before.told.condition)
         after = [] if is_again else [e for e in after if e.told.action in CONDITIONED][:1]

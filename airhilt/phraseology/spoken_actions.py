@@ -33,7 +33,8 @@ def phrase_of(instruction: Instruction, style: Style, *, readback: bool) -> str:
         words = f"{words} {_with_digits(instruction.until, style)}"
     if instruction.condition is None:
         return words
-    return f"{_with_digits(instruction.condition, style)}, {words}"
+    comma = "" if instruction.condition == "then" else ","
+    return f"{_with_digits(instruction.condition, style)}{comma} {words}"
 
 
 def _with_digits(words: str, style: Style) -> str:

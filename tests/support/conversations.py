@@ -138,6 +138,9 @@ class World:
     def refusal(self, callsign: str, command: Any) -> str | None:
         return None
 
+    def never(self, condition: Any) -> str | None:
+        return None
+
     def no_response(self, callsign: str, text: str) -> None:
         self.done.append((callsign, text, self.now_s))
 

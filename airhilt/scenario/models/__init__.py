@@ -19,7 +19,9 @@ from airhilt.scenario.models.actors import (
 )
 from airhilt.scenario.models.base import Callsign, Identifier
 from airhilt.scenario.models.conditions import (
+    AirspeedReached,
     AllOf,
+    AltitudeReached,
     AnyOf,
     BoundForAltitude,
     BoundForRunway,
@@ -27,10 +29,13 @@ from airhilt.scenario.models.conditions import (
     Collided,
     Condition,
     DistanceBelow,
+    FixPassed,
+    HeightAbove,
     HeightBelow,
     InPhase,
     LineBegun,
     LineEnded,
+    OffRunways,
     OnRunway,
     Pair,
     PredictedLossOfSeparation,
@@ -38,6 +43,7 @@ from airhilt.scenario.models.conditions import (
     SpeedAbove,
     ThresholdWithin,
     TimeReached,
+    TrackReached,
 )
 from airhilt.scenario.models.controllers import Alerting, Controller
 from airhilt.scenario.models.failures import (

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from airhilt.geodesy.positions import RunwayIdent
-from airhilt.quantities import AltitudeFt, Name, Number, SpeedKt, TimeS
+from airhilt.geodesy.positions import Bearing, RunwayIdent
+from airhilt.quantities import AltitudeFt, Flag, Name, Number, SpeedKt, TimeS
 from airhilt.scenario.models.base import Callsign, Identifier, Model
 
 Pair = tuple[Callsign, Callsign]
@@ -109,6 +109,54 @@ class HeightBelow(Model):
     height_ft: Number = Field(gt=0.0, le=60_000.0)
 
 
+class HeightAbove(Model):
+    """True while an actor is higher above the ground than a value."""
+
+    type: Literal["height_above"]
+    actor: Callsign
+    height_ft: Number = Field(ge=0.0, le=60_000.0)
+
+
+class AltitudeReached(Model):
+    """True once an aircraft is within 100 ft of an altitude, or has long moved away from it."""
+
+    type: Literal["altitude_reached"]
+    actor: Callsign
+    altitude_ft: AltitudeFt
+
+
+class AirspeedReached(Model):
+    """True while the calibrated airspeed of an aircraft is within 5 knots of a value."""
+
+    type: Literal["airspeed_reached"]
+    actor: Callsign
+    cas_kt: SpeedKt
+
+
+class TrackReached(Model):
+    """True while the track of an aircraft is within 5 degrees of a true one."""
+
+    type: Literal["track_reached"]
+    actor: Callsign
+    track_deg: Bearing
+
+
+class FixPassed(Model):
+    """True once an aircraft passes a fix: within half a mile, or abeam within three."""
+
+    type: Literal["fix_passed"]
+    actor: Callsign
+    fix: Name = Field(description="its name in the scenario")
+
+
+class OffRunways(Model):
+    """True while an actor is on the ground, and in the protected area of no runway."""
+
+    type: Literal["off_runways"]
+    actor: Callsign
+    has_been_on: Flag = Field(default=False, description="true: only after it was on one")
+
+
 class DistanceBelow(Model):
     """True while two actors are nearer to each other over the ground than a distance."""
 
@@ -164,6 +212,12 @@ Condition = Annotated[
     | ThresholdWithin
     | SpeedAbove
     | HeightBelow
+    | HeightAbove
+    | AltitudeReached
+    | AirspeedReached
+    | TrackReached
+    | FixPassed
+    | OffRunways
     | DistanceBelow
     | Collided
     | LineBegun

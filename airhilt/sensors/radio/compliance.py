@@ -12,7 +12,7 @@ from typing import NamedTuple
 from airhilt.commands import Command, ContactCommand, GoAroundCommand
 from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
-from airhilt.scenario.models import ScriptedCommand
+from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
@@ -83,19 +83,19 @@ class Compliance:
 
     def _ordered(self, call: RadioCall, taken: Call, actor: str) -> Decision:
         listener = self._stations.listener(call.frequency_khz)
-        orders = listener.orders_of(taken.instructions, self._stations.bound_runway(actor))
-        commands: dict[Command, None] = {}
+        orders = listener.orders_of(taken.instructions, self._stations.bound_runway(actor), actor)
+        commands: dict[Command, Condition | None] = {}
         accepted: list[Order] = []
         unable = []
-        refused: dict[str, str | None] = {}
-        """Why the first order about each subject cannot be done; None if it can."""
+        refused: dict[tuple[str, bool], str | None] = {}
+        """Why the first order about each subject, now or later, cannot be done; None if it can."""
         for order in orders:
             why = order.unable or order.question or None
             if why is None and order.command is not None:
-                subject = subject_of(order.command)
+                subject = subject_of(order.command), order.when is None
                 if subject not in refused:
                     breaks_off = any(isinstance(each, GoAroundCommand) for each in commands)
-                    why = None if breaks_off else self._refusal(actor, order.command)
+                    why = None if breaks_off else self._refusal(actor, order.command, order.when)
                     refused[subject] = why  # Where it goes around, it is not where it was.
                 why = refused[subject]
             if why is not None:
@@ -103,23 +103,28 @@ class Compliance:
                 continue
             accepted.append(order)
             if order.command is not None:
-                commands[order.command] = None
+                commands[order.command] = order.when
         scripted = tuple(
-            ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S)
-            for command in commands
+            ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S, when=when)
+            for command, when in commands.items()
         )
-        if refused.get("surface") is not None:
+        if refused.get(("surface", True)) is not None:
             accepted = [each for each in accepted if each.instruction.action not in ON_THE_WAY]
         read_back = tuple(each.instruction for each in accepted)
         decision = Decision(scripted, read_back, tuple(dict.fromkeys(unable)))
         return self._told(actor, decision)
 
-    def _refusal(self, actor: str, command: Command) -> str | None:
-        """Return why an actor cannot carry out a command now; a person decides without us."""
+    def _refusal(self, actor: str, command: Command, when: Condition | None = None) -> str | None:
+        """Return why an actor cannot carry out a command now; a person decides without us.
+
+        Of a command that waits for a condition it is known only whether that can come true.
+        """
         if self._seats.has_person(actor):
             return None
         if isinstance(command, ContactCommand):
             return self._stations.unknown(command.unit, command.frequency_khz)
+        if when is not None:
+            return self._world.never(when)
         return self._world.refusal(actor, command)
 
     def _told(self, actor: str, decision: Decision) -> Decision:

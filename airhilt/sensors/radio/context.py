@@ -33,6 +33,9 @@ class RadioWorld(Protocol):
     def do(self, callsign: str, command: Command) -> None:
         """Let an actor carry out a command."""
 
+    def never(self, condition: Condition) -> str | None:
+        """Return why a condition cannot come true, as an actor says it; None: it can."""
+
     def refusal(self, callsign: str, command: Command) -> str | None:
         """Return why an actor cannot carry out a command now, as it says it; None: it can."""
 

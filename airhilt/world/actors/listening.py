@@ -33,10 +33,10 @@ class Listener:
         return parse_call(text, self.callsigns, word_confidences)
 
     def orders_of(
-        self, instructions: Iterable[Instruction], bound_runway: str | None
+        self, instructions: Iterable[Instruction], bound_runway: str | None, callsign: str
     ) -> tuple[Order, ...]:
         """Return the orders that instructions give, one for each, as of `orders.orders_of`."""
-        return orders_of(instructions, bound_runway, self.variation_deg)
+        return orders_of(instructions, bound_runway, self.variation_deg, callsign)
 
     def understand(
         self,

@@ -54,6 +54,8 @@ from airhilt.commands import (
     VerticalRateCommand,
 )
 from airhilt.phraseology import Action, Instruction
+from airhilt.scenario.models import Condition
+from airhilt.world.actors.order_conditions import READY, THEN, condition_of, done, is_departed
 
 NOTHING_MOVES: frozenset[Action] = frozenset(
     {"squawk", "ident", "report", "say", "stand_by", "continue_approach", "start_up",
@@ -68,14 +70,14 @@ BEHIND = re.compile(
     r"(?:\s+(?:has|have|is|passes|lands|departs|vacates)\b.*)?"
 )
 """Condition to wait for other traffic (ICAO Doc 4444, 12.2.7: "behind landing 737")."""
-READY = re.compile(r"(?:when|whenever|once|as soon as)\s+(?:you(?:'re| are)?\s+)?(?:ready|able)")
-"""Condition that holds as soon as the instruction has been heard."""
 DOES: Mapping[str, frozenset[str]] = {
     "landing": frozenset({"landing", "arriving", "arrival", "final"}),
     "departing": frozenset({"departing", "departure", "takeoff"}),
 }
 """What other traffic does when it passes, and the words for it."""
 
+WAITING = get_args(BehindCommand.model_fields["command"].annotation)
+"""Commands that wait for other traffic."""
 ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short"})
 """Actions that are part of a taxi clearance in the same call."""
 
@@ -118,12 +120,17 @@ class Order:
     """Why nobody could carry it out, as it is said on the radio; empty if somebody could."""
     question: str = ""
     """What the actor asks before it can be carried out; empty if nothing is missing."""
+    when: Condition | None = None
+    """What the actor waits for before it carries it out."""
 
 
 def orders_of(
-    instructions: Iterable[Instruction], bound_runway: str | None, variation_deg: float
+    instructions: Iterable[Instruction],
+    bound_runway: str | None,
+    variation_deg: float,
+    callsign: str,
 ) -> tuple[Order, ...]:
-    """Return the orders that instructions give to an actor, one for each instruction.
+    """Return the orders that instructions give to an actor, by its callsign, one for each.
 
     Headings are magnetic, and are flown as true tracks: without wind. The variation is in degrees,
     positive east. An instruction without a runway means the one that the actor is going to use. A
@@ -139,7 +146,7 @@ def orders_of(
     climbs = any(each.action in ("cleared_for_takeoff", "go_around") for each in now)
     heading_deg = _heading_after_takeoff(given)
     on_the_way = _on_the_way(now)
-    orders = []
+    orders: list[Order] = []
     for each in given:
         is_part = on_the_way is not None and each.action in ON_THE_WAY
         is_level = climbs and each.action == "altitude"
@@ -150,6 +157,8 @@ def orders_of(
             orders.append(Order(each))
         else:
             order = _order(each, bound_runway, level_ft, variation_deg, on_the_way)
+            if each.condition is not None and order.command is not None:
+                order = _once(each, order.command, callsign, orders)
             if heading_deg is not None and isinstance(order.command, TakeOffCommand):
                 track_deg = (heading_deg + variation_deg) % 360.0
                 command = order.command.model_copy(update={"track_deg": track_deg})
@@ -168,7 +177,7 @@ def _heading_after_takeoff(given: Sequence[Instruction]) -> float | None:
         (
             each.heading_deg
             for each in given
-            if each.action == "heading" and each.condition in (None, "when airborne")
+            if each.action == "heading" and (each.condition is None or is_departed(each.condition))
         ),
         None,
     )
@@ -204,8 +213,6 @@ def _order(
         command = _command(instruction, bound_runway, level_ft, variation_deg)
         if on_the_way is not None and isinstance(command, TaxiToCommand):
             command = TaxiToCommand.model_validate({**command.model_dump(), **on_the_way._asdict()})
-        if command is not None and instruction.condition is not None:
-            command = _once(instruction.condition, command)
     except NotUnderstood as asks:
         return Order(instruction, question=str(asks))
     except pydantic.ValidationError:
@@ -215,25 +222,49 @@ def _order(
     return Order(instruction, command)
 
 
-def _once(condition: str, command: Command) -> Command:
-    """Return a command that waits for a condition; `NotUnderstood` asks about others than these.
+def _once(
+    instruction: Instruction, command: Command, callsign: str, before: Sequence[Order]
+) -> Order:
+    """Return the order of a command that waits for a condition.
 
-    Behind, or after, other traffic; or when the addressee is ready, which it is.
+    It waits for other traffic, for what the actor itself reaches, passes or leaves, or for the end
+    of what it is told ``before`` in the same call. About any other condition it asks.
     """
+    condition = instruction.condition or ""
+    commands = [each.command for each in before if each.command is not None]
     if READY.fullmatch(condition):
-        return command
-    match = BEHIND.fullmatch(condition)
+        return Order(instruction, command)
+    if condition == THEN:
+        last = commands[-1] if commands else None
+        if isinstance(last, GiveWayCommand):
+            return _behind(instruction, command, last.to, "passing")
+        when = None if last is None else done(last, callsign)
+    elif isinstance(command, WAITING):
+        return _behind_traffic(instruction, command)
+    else:
+        when = condition_of(condition, callsign, commands)
+    if when is None:
+        return Order(instruction, question=f"say again, {condition}")
+    return Order(instruction, command, when=when)
+
+
+def _behind_traffic(instruction: Instruction, command: Command) -> Order:
+    """Return the order of a command on the ground that waits for other traffic."""
+    match = BEHIND.fullmatch(instruction.condition or "")
     whom = "" if match is None else match[1]
     doing = next((does for does, words in DOES.items() if words & set(whom.split())), "passing")
     is_traffic = bool(set(whom.split()) - DOES.get(doing, frozenset()))
-    if not is_traffic:
-        raise NotUnderstood(f"say again, {condition}")
+    return _behind(instruction, command, whom if is_traffic else "", doing)
+
+
+def _behind(instruction: Instruction, command: Command, whom: str, doing: str) -> Order:
     try:
-        return BehindCommand.model_validate(
+        behind = BehindCommand.model_validate(
             {"action": "behind", "whom": whom, "traffic": doing, "command": command.model_dump()}
         )
     except pydantic.ValidationError:
-        raise NotUnderstood(f"say again, {condition}") from None
+        return Order(instruction, question=f"say again, {instruction.condition}")
+    return Order(instruction, behind)
 
 
 def _command(

@@ -21,6 +21,7 @@ from airhilt.scenario.models import (
     ActorSpec,
     Airborne,
     AircraftSpec,
+    AltitudeReached,
     BoundForAltitude,
     Scenario,
     WildlifeSpec,
@@ -113,6 +114,7 @@ def altitudes_below_ground(scenario: Scenario, site: ScenarioSite) -> Iterator[P
                 AltitudeCommand(altitude_ft=altitude_ft)
                 | EmergencyDescentCommand(altitude_ft=altitude_ft)
                 | BoundForAltitude(altitude_ft=altitude_ft)
+                | AltitudeReached(altitude_ft=altitude_ft)
             ):
                 field = "altitude_ft"
             case TakeOffCommand(climb_to_ft=altitude_ft) | GoAroundCommand(climb_to_ft=altitude_ft):

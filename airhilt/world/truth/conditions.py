@@ -14,22 +14,22 @@ from airhilt.scenario.models import (
     Collided,
     Condition,
     DistanceBelow,
-    HeightBelow,
-    InPhase,
     LineBegun,
     LineEnded,
+    OffRunways,
     OnRunway,
     PredictedLossOfSeparation,
     SeparationBelow,
-    SpeedAbove,
     ThresholdWithin,
     TimeReached,
 )
-from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
+from airhilt.units import FOOT, NAUTICAL_MILE, seconds_to_ns
 from airhilt.world.actors.actor import Actor
 from airhilt.world.actors.triggers import Test
 from airhilt.world.mover import Mover
+from airhilt.world.site import ScenarioSite
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
+from airhilt.world.truth.flown_conditions import flown
 from airhilt.world.truth.runways import RunwayMonitor
 
 
@@ -43,8 +43,10 @@ class ConditionCompiler:
         runways: RunwayMonitor | None,
         begun_lines: set[str],
         ended_lines: set[str],
+        site: ScenarioSite,
     ) -> None:
         self._actors = actors
+        self._site = site
         self._monitor = monitor
         self._runways = runways
         self._begun_lines = begun_lines
@@ -81,21 +83,18 @@ class ConditionCompiler:
                 )
             case Collided(actors=pair):
                 return lambda _: self._monitor.collided(pair)
-            case InPhase(actor=name, phases=phases):
-                return self._of_actor(name, lambda body: body.phase in phases)
             case BoundForRunway() | OnRunway() | ThresholdWithin():
                 return self._of_runway(condition)
-            case SpeedAbove(actor=name, speed_kt=speed_kt):
-                fast_m_s = speed_kt * KNOT
-                return self._of_actor(name, lambda body: body.state.ground_speed_m_s > fast_m_s)
-            case HeightBelow(actor=name, height_ft=height_ft):
-                return self._of_actor(name, lambda body: body.state.height_agl_m < height_ft * FOOT)
+            case OffRunways(actor=name, has_been_on=has_been_on):
+                return self._of_actor(name, self._off_runways(name, was_on=not has_been_on))
             case AllOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
                 return lambda now_ns: all(_each(tests, now_ns))
             case AnyOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
                 return lambda now_ns: any(_each(tests, now_ns))
+        body, test = self._actors[condition.actor].body, flown(condition, self._site)
+        return lambda now_ns: body.ended is None and test(body, now_ns)
 
     def _of_pair(self, pair: Pair, test: Callable[[], bool]) -> Test:
         return lambda _: self._monitor.flying(pair) and test()
@@ -128,6 +127,15 @@ class ConditionCompiler:
                     return time_s is not None and time_s <= within_s
 
         return self._of_actor(name, test)
+
+    def _off_runways(self, name: str, *, was_on: bool) -> Callable[[Mover], bool]:
+        def is_off(body: Mover) -> bool:
+            nonlocal was_on
+            is_on = self._runways is not None and self._runways.is_on_any(name)
+            was_on = was_on or is_on
+            return was_on and body.on_ground and not is_on
+
+        return is_off
 
     def _loss_within(self, pair: Pair, within_s: float | None) -> bool:
         loss = self._monitor.time_to_loss_s(pair)

@@ -176,8 +176,12 @@ class RunwayMonitor:
         self._update_closest()
 
     def is_on(self, callsign: str, runway: str) -> bool:
-        """Return whether an actor is in the protected area of a runway."""
+        """Return whether an actor is in the protected area of this runway."""
         return callsign in self._occupants[self._layout.strip_of(runway).name]
+
+    def is_on_any(self, callsign: str) -> bool:
+        """Return whether an actor is in the protected area of a runway."""
+        return any(callsign in occupants for occupants in self._occupants.values())
 
     def is_bound_for(self, callsign: str, runway: str) -> bool:
         """Return whether an actor is going to use a runway, in that direction."""

@@ -121,7 +121,7 @@ AT_ONCE = "American one two three, line up runway one niner."
 
 def orders_in(taken: Understanding) -> list[str]:
     assert taken.call is not None
-    orders = LISTENER.orders_of(taken.call.instructions, None)
+    orders = LISTENER.orders_of(taken.call.instructions, None, "AAL123")
     return [order.command.action for order in orders if order.command is not None]
 
 

@@ -12,14 +12,14 @@ from airhilt.world.actors.orders import NOTHING_MOVES, orders_of
 
 def order(*instructions: Instruction, runway: str | None = None, variation_deg: float = 0.0) -> Any:
     """Return the first order of some instructions."""
-    return orders_of(instructions, runway, variation_deg)[0]
+    return orders_of(instructions, runway, variation_deg, "AAL1")[0]
 
 
 @pytest.mark.parametrize("action", get_args(Action))
 def test_every_instruction_is_a_command_or_needs_none_or_is_refused_or_asked_about(
     action: Action,
 ) -> None:
-    (made,) = orders_of([Instruction(action)], None, 0.0)
+    (made,) = orders_of([Instruction(action)], None, 0.0, "AAL1")
     outcomes = [made.command is not None, bool(made.unable), bool(made.question)]
     assert sum(outcomes) == (0 if action in NOTHING_MOVES else 1)
 
@@ -49,7 +49,7 @@ def test_an_instruction_is_done_at_the_runway_and_with_the_numbers_that_it_names
 
 def test_a_level_with_a_takeoff_is_where_it_climbs_to() -> None:
     said = Instruction("cleared_for_takeoff", "01"), Instruction("altitude", altitude_ft=6000.0)
-    takeoff, climb = orders_of(said, None, 0.0)
+    takeoff, climb = orders_of(said, None, 0.0, "AAL1")
     assert takeoff.command is not None
     assert takeoff.command.model_dump()["climb_to_ft"] == 6000.0
     assert climb.command is None
@@ -72,7 +72,7 @@ def test_what_is_said_about_the_way_is_part_of_a_taxi_clearance() -> None:
         Instruction("cross", "15", position="J"),
         Instruction("hold_short", hold_short="N"),
     )
-    taxi, cross, hold_short = orders_of(said, None, 0.0)
+    taxi, cross, hold_short = orders_of(said, None, 0.0, "AAL1")
     assert taxi.command is not None
     assert taxi.command.model_dump() == {
         "action": "taxi_to", "runway": "19", "place": None, "via": ("K",),
@@ -112,9 +112,47 @@ def test_when_ready_is_now_and_other_conditions_are_asked_about() -> None:
         assert asked.question == f"say again, {condition}"
 
 
+@pytest.mark.parametrize(
+    ("condition", "expected"),
+    [
+        ("when airborne", {"type": "height_above", "height_ft": 400.0}),
+        ("after departure", {"type": "height_above", "height_ft": 400.0}),
+        ("after passing 3 thousand", {"type": "altitude_reached", "altitude_ft": 3000.0}),
+        ("leaving flight level 120", {"type": "altitude_reached", "altitude_ft": 12_000.0}),
+        ("at 4 thousand 500 feet", {"type": "altitude_reached", "altitude_ft": 4500.0}),
+        ("after lam", {"type": "fix_passed", "fix": "LAM"}),
+        ("over casanova", {"type": "fix_passed", "fix": "CASANOVA"}),
+        ("when clear of the runway", {"type": "off_runways", "has_been_on": False}),
+        ("once you have vacated runway 01", {"type": "off_runways", "has_been_on": False}),
+        ("after landing", {"type": "off_runways", "has_been_on": False}),
+        ("when established on the localizer", {"type": "in_phase"}),
+    ],
+)
+def test_a_condition_on_the_flight_is_waited_for(condition: str, expected: dict[str, Any]) -> None:
+    told = Instruction("contact", position="ground", condition=condition)
+    waits = order(told).when
+    assert waits is not None
+    assert waits.model_dump().items() >= ({"actor": "AAL1"} | expected).items()
+
+
+def test_what_follows_then_waits_for_the_end_of_what_is_before_it() -> None:
+    slow = Instruction("speed", speed_kt=210.0)
+    down = Instruction("altitude", altitude_ft=6000.0, condition="then")
+    call = Instruction("contact", position="tower", condition="then")
+    waits = [each.when for each in orders_of([slow, down, call], None, 0.0, "AAL1")]
+    assert [each and each.type for each in waits] == [None, "airspeed_reached", "altitude_reached"]
+
+
+def test_who_crosses_a_runway_has_to_be_on_it_before_it_is_clear_of_it() -> None:
+    call = Instruction("contact", position="ground", condition="when clear of the runway")
+    _, told = orders_of([Instruction("cross", "01"), call], None, 0.0, "OPS1")
+    assert told.when is not None
+    assert told.when.model_dump()["has_been_on"]
+
+
 def test_a_clearance_behind_an_approach_is_for_the_runway_of_the_approach() -> None:
     said = Instruction("circle", "33"), Instruction("cleared_to_land")
-    circle, land = orders_of(said, "01", 0.0)
+    circle, land = orders_of(said, "01", 0.0, "AAL1")
     assert circle.command is not None
     assert land.command is not None
     assert land.command.model_dump().items() >= {"action": "land", "runway": "33"}.items()
@@ -123,7 +161,9 @@ def test_a_clearance_behind_an_approach_is_for_the_runway_of_the_approach() -> N
 def test_a_heading_with_a_takeoff_is_flown_after_it() -> None:
     for condition in (None, "when airborne"):
         turn = Instruction("heading", heading_deg=40.0, condition=condition)
-        heading, takeoff = orders_of([turn, Instruction("cleared_for_takeoff", "01")], None, -10.0)
+        heading, takeoff = orders_of(
+            [turn, Instruction("cleared_for_takeoff", "01")], None, -10.0, "AAL1"
+        )
         assert (heading.command, heading.unable, heading.question) == (None, "", "")
         assert takeoff.command is not None
         assert takeoff.command.model_dump()["track_deg"] == pytest.approx(30.0)

@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, cast
 
 import pytest
 from pydantic import TypeAdapter
 
+from airhilt.errors import ScenarioError
 from airhilt.scenario.models import Condition
 from airhilt.units import SECOND_NS
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
 from airhilt.world.truth.conditions import ConditionCompiler
 from airhilt.world.truth.runways import RunwayMonitor
-from straight import Performing, Rolling, Straight, Watch
+from straight import EARTH_RADIUS_M, Performing, Rolling, Straight, Watch
+
+
+class Fixes:
+    """A place with one fix, 20 km east of where aircraft begin."""
+
+    def fix(self, name: str) -> tuple[float, float] | None:
+        return (0.0, 20_000.0 / EARTH_RADIUS_M) if name == "LAM" else None
+
+
+SITE = cast(Any, Fixes())
 
 
 class Case:
@@ -30,7 +42,12 @@ class Case:
         self.ended_lines: set[str] = set()
         self.actors = {name: Performing(body) for name, body in self.watch.aircraft.items()}
         compiler = ConditionCompiler(
-            cast(Any, self.actors), self.watch.monitor, None, self.begun_lines, self.ended_lines
+            cast(Any, self.actors),
+            self.watch.monitor,
+            None,
+            self.begun_lines,
+            self.ended_lines,
+            SITE,
         )
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
@@ -199,7 +216,7 @@ class Airport(Case):
         nothing = lambda *_: None  # noqa: E731
         self.runways = RunwayMonitor(layout, cast(Any, self.actors), set(), set(), nothing, nothing)
         compiler = ConditionCompiler(
-            cast(Any, self.actors), self.watch.monitor, self.runways, set(), set()
+            cast(Any, self.actors), self.watch.monitor, self.runways, set(), set(), SITE
         )
         self.test = compiler.compile(TypeAdapter(Condition).validate_python(condition))
 
@@ -231,6 +248,17 @@ def test_an_actor_is_on_a_runway_in_both_directions_and_only_on_the_ground() -> 
     assert not on("BB", "01", car_along_m=-400.0)
     assert not on("AA", "01", along_m=500.0)
     assert on("AA", "01", along_m=500.0, on_ground=True, altitude_ft=0.0)
+
+
+def test_an_actor_is_off_the_runways_on_the_ground_or_only_after_it_was_on_one() -> None:
+    def off(actor: str, **case: Any) -> bool:
+        return Airport({"type": "off_runways", "actor": actor}, **case)()
+
+    assert off("BB", car_along_m=-400.0)
+    assert not off("BB")
+    assert not off("AA", along_m=-3000.0)
+    leaves = Airport({"type": "off_runways", "actor": "BB", "has_been_on": True}, car_along_m=-400)
+    assert not leaves()
 
 
 def test_the_threshold_is_within_a_time_of_an_arrival(subtests: pytest.Subtests) -> None:
@@ -312,3 +340,35 @@ def test_of_an_actor_that_has_ended_nothing_is_true(
             assert en_route()
             en_route.end()
             assert not en_route()
+
+
+# --- what an aircraft reaches, passes and leaves -------------------------------------------------
+
+CLIMBING = Straight(altitude_ft=2_000.0, east_m_s=100.0, rate_fpm=3_000.0)
+
+
+@pytest.mark.parametrize(
+    ("condition", "holds_after_s"),
+    [
+        ({"type": "height_above", "height_ft": 2_500.0}, 10),
+        ({"type": "altitude_reached", "altitude_ft": 5_000.0}, 58),
+        ({"type": "altitude_reached", "altitude_ft": 1_500.0}, 10),
+        ({"type": "airspeed_reached", "cas_kt": 270.0}, 0),
+        ({"type": "track_reached", "track_deg": 88.0}, 0),
+        ({"type": "fix_passed", "fix": "LAM"}, 190),
+    ],
+)
+def test_an_aircraft_reaches_or_passes_something(condition: Any, holds_after_s: int) -> None:
+    case = Case(condition | {"actor": "AA"}, replace(CLIMBING), Straight(15_000.0))
+    held = [case()] + [case.after(1.0) for _ in range(230)]
+    assert held.index(True) == pytest.approx(holds_after_s, abs=2)
+
+
+def test_a_level_aircraft_has_not_passed_the_altitude_to_which_it_will_climb() -> None:
+    case = Case({"type": "altitude_reached", "actor": "AA", "altitude_ft": 36_000.0})
+    assert not any(case.after(1.0) for _ in range(60))
+
+
+def test_a_fix_that_nobody_knows_is_never_passed() -> None:
+    with pytest.raises(ScenarioError, match="there is no fix ZUPEK"):
+        Case({"type": "fix_passed", "actor": "AA", "fix": "ZUPEK"})

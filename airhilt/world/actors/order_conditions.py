@@ -1,0 +1,111 @@
+"""Conditions of instructions: what an actor waits for before it does what it was told."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from airhilt.commands import (
+    AltitudeCommand,
+    Command,
+    CrossCommand,
+    DirectCommand,
+    EnterCommand,
+    LandCommand,
+    LineUpCommand,
+    SpeedCommand,
+    TakeOffCommand,
+    TrackCommand,
+    VacateCommand,
+)
+from airhilt.phraseology.slots import FIX, LEVEL_HERE, level_ft
+from airhilt.phraseology.vertical import level_in
+from airhilt.scenario.models import (
+    AirspeedReached,
+    AltitudeReached,
+    Condition,
+    FixPassed,
+    HeightAbove,
+    InPhase,
+    OffRunways,
+    TrackReached,
+)
+
+DEPARTED_FT = 400.0
+"""Height in ft above which an aircraft turns after a takeoff (FAA AIM 5-2-9 e 1)."""
+ENTERS = (CrossCommand, EnterCommand)
+"""Commands that bring an actor on to a runway, and off it again."""
+THEN = "then"
+"""Condition of what follows the action before it in the same call."""
+READY = re.compile(
+    r"(?:(?:when|whenever|once|as soon as)\s+(?:you(?:'re| are)?\s+)?(?:ready|able)|if able)"
+    r"|at (?:pilot|your|own) (?:discretion|convenience)"
+)
+"""Condition that holds as soon as the instruction has been heard."""
+_WHEN = r"(?:(?:when|once|after|on|upon|as soon as)\s+)?(?:you\s+are\s+|you're\s+|you\s+|your\s+)?"
+_DEPARTED = re.compile(
+    _WHEN + r"(?:airborne|departure|departing|the go|take ?off|off the ground|in the air)"
+)
+_VACATED = re.compile(
+    _WHEN + r"(?:(?:have\s+|had\s+)?(?:vacated?|vacating|clear|cleared|off|exited|exiting|left"
+    r"|leaving|landed|landing|down|rollout|on the ground)"
+    r"(?:\s+of)?(?:\s+(?:the|this))?(?:\s+(?:active|runway))?(?:\s+runway)?"
+    r"(?:\s+[0-9]{1,2}(?:\s+(?:left|right|centre))?)?)"
+)
+_ESTABLISHED = re.compile(_WHEN + r"(?:fully\s+)?established(?:\s+.*)?")
+_PASSING = re.compile(
+    rf"(?:{_WHEN}(?:at|pass(?:ing|ed)|through|leaving|reach(?:ing|ed)|over|crossing|level(?: at)?)"
+    r"|after)\s+(?P<what>.+)"
+)
+
+
+def is_departed(condition: str) -> bool:
+    """Return whether a condition is that of having taken off."""
+    return _DEPARTED.fullmatch(condition) is not None
+
+
+def condition_of(words: str, callsign: str, before: Iterable[Command]) -> Condition | None:
+    """Return the condition in some words for an actor; None if they name none that is known.
+
+    A name that is no level is taken as a fix. Who is to cross a runway ``before`` vacates that one.
+    """
+    if is_departed(words):
+        return HeightAbove(type="height_above", actor=callsign, height_ft=DEPARTED_FT)
+    if _VACATED.fullmatch(words):
+        crosses = any(isinstance(each, ENTERS) for each in before)
+        return OffRunways(type="off_runways", actor=callsign, has_been_on=crosses)
+    if _ESTABLISHED.fullmatch(words):
+        return InPhase(type="in_phase", actor=callsign, phases=("glide", "flare", "rollout"))
+    passing = _PASSING.fullmatch(words)
+    if passing is None:
+        return None
+    what = passing["what"]
+    level = LEVEL_HERE.fullmatch(what)
+    altitude_ft = level_in(what, is_here=True)[0] if level is None else level_ft(level)
+    if altitude_ft is not None:
+        return AltitudeReached(type="altitude_reached", actor=callsign, altitude_ft=altitude_ft)
+    if re.fullmatch(FIX, what):
+        return FixPassed(type="fix_passed", actor=callsign, fix=what.upper())
+    return None
+
+
+def done(command: Command, callsign: str) -> Condition | None:
+    """Return the condition that an actor has done what it was told before; None: it has no end."""
+    match command:
+        case AltitudeCommand(altitude_ft=altitude_ft):
+            return AltitudeReached(type="altitude_reached", actor=callsign, altitude_ft=altitude_ft)
+        case SpeedCommand(cas_kt=cas_kt):
+            return AirspeedReached(type="airspeed_reached", actor=callsign, cas_kt=cas_kt)
+        case TrackCommand(track_deg=track_deg):
+            return TrackReached(type="track_reached", actor=callsign, track_deg=track_deg)
+        case DirectCommand(to=fix):
+            return FixPassed(type="fix_passed", actor=callsign, fix=fix)
+        case TakeOffCommand():
+            return HeightAbove(type="height_above", actor=callsign, height_ft=DEPARTED_FT)
+        case LineUpCommand():
+            return InPhase(type="in_phase", actor=callsign, phases=("lined_up",))
+        case VacateCommand() | LandCommand():
+            return OffRunways(type="off_runways", actor=callsign)
+        case CrossCommand():
+            return OffRunways(type="off_runways", actor=callsign, has_been_on=True)
+    return None
