@@ -9,10 +9,10 @@ from typing import Any, get_args
 
 import pytest
 
-from airhilt.phraseology import Action, Instruction
+from airhilt.phraseology import Action, Instruction, parse_call
 from airhilt.phraseology.say import speak_instruction
 from airhilt.units import SECOND_NS
-from airhilt.world.actors.orders import NOTHING_MOVES
+from airhilt.world.actors.orders import NOTHING_MOVES, orders_of
 from seats import calls, contents, logged, said
 from tower_calls import SITUATIONS, scenario_of
 
@@ -84,7 +84,7 @@ def unanswered(situation: str, actions: list[Action], out: Path) -> list[str]:
             if each["kind"] == "command" and time_s < each["t_ns"] / SECOND_NS <= time_s + EVERY_S
         ]
         is_told = "unable" in answer or "say " in answer
-        is_done = bool(answer) and (bool(done) or action in NOTHING_MOVES)
+        is_done = bool(answer) and (action in NOTHING_MOVES or is_as_read_back(done, answer))
         if not is_told and not is_done and time_s + EVERY_S < ended_s:
             found.append(f"{situation}: {text!r} -> {answer!r}")
         if action in ("contact", "monitor") and not is_told:
@@ -95,6 +95,23 @@ def unanswered(situation: str, actions: list[Action], out: Path) -> list[str]:
         ):
             found.append(f"{situation}: not said aloud: {json.dumps(event['text'])}")
     return found
+
+
+def is_as_read_back(done: list[dict[str, Any]], answer: str) -> bool:
+    """Return whether what was done is what the words of an answer order, and nothing else."""
+    read_back = parse_call(answer, [callsign for callsign, _, _ in SITUATIONS.values()])
+    ordered = orders_of(read_back.instructions, "01", 0.0, "")
+    meant = [each.command.model_dump() for each in ordered if each.command is not None]
+    return bool(done) and meanings(meant) == meanings([json.loads(each["text"]) for each in done])
+
+
+def meanings(commands: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return what commands mean, without what is not said of them."""
+    unsaid = {"track_deg", "climb_to_ft", "via", "exit", "cross", "hold_short"}
+    return [
+        {name: value for name, value in command.items() if name not in unsaid and value is not None}
+        for command in commands
+    ]
 
 
 @pytest.mark.parametrize("situation", list(SITUATIONS))
