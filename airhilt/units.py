@@ -14,6 +14,7 @@ INCH = FOOT / 12.0
 NAUTICAL_MILE = 1852.0
 """Metres in a nautical mile (exact; ICAO Annex 5)."""
 KNOT = NAUTICAL_MILE / 3600.0
+POUND = 0.45359237
 """Metres per second in a knot."""
 FOOT_PER_MINUTE = FOOT / 60.0
 """Metres per second in a foot per minute."""

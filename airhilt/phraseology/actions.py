@@ -10,6 +10,7 @@ from airhilt.phraseology import (
     expectations,
     ground,
     lateral,
+    questions,
     runways,
     speeds,
     surveillance,
@@ -18,8 +19,8 @@ from airhilt.phraseology import (
 from airhilt.phraseology.forms import Form
 
 _SUBJECTS = (
-    expectations.FORMS, circuit.FORMS, vertical.CROSSINGS, runways.FORMS, approaches.FORMS,
-    ground.FORMS, surveillance.FORMS, speeds.FORMS, lateral.FORMS, vertical.FORMS,
+    questions.FORMS, expectations.FORMS, circuit.FORMS, vertical.CROSSINGS, runways.FORMS,
+    approaches.FORMS, ground.FORMS, surveillance.FORMS, speeds.FORMS, lateral.FORMS, vertical.FORMS,
 )  # fmt: skip
 """Forms in their order: the first that fits is taken."""
 

@@ -32,8 +32,8 @@ The slots of those in the circuit and of questions:
 - return_to_field: come back to land, on ``runway`` if it is said.
 - expedite: do without delay what was told before; no slots.
 - vertical_rate: ``rate_fpm``, with ``sense`` if no level is named beside it ("climb at 1,200").
-- say: tell by radio what ``position`` names ("altitude", "heading", "speed", "position",
-  "intentions").
+- say: tell by radio what ``position`` names ("altitude", "heading", "fuel remaining", "traffic in
+  sight"), one instruction for each thing.
 """
 
 CLEARANCES: frozenset[Action] = frozenset(
@@ -62,9 +62,11 @@ Turn = Literal["left", "right"]
 Bound = Literal["or_more", "or_less"]
 Kind = Literal[
     "instruction", "readback", "report", "request", "say_again", "correction", "disregard",
-    "hail", "unknown",
+    "hail", "radio_check", "question", "unknown",
 ]  # fmt: skip
 """Kind of a call; a hail has only the names of who is called and who calls."""
+Asks = Literal["able", "doing"]
+"""What a question asks: whether somebody can do something, or does it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,14 @@ class Instruction:
 
 
 @dataclass(frozen=True, slots=True)
+class Question:
+    """A question about an action, which orders nothing."""
+
+    asks: Asks
+    about: Instruction
+
+
+@dataclass(frozen=True, slots=True)
 class Wind:
     """A wind: variable if it has no direction, calm if it has no speed."""
 
@@ -151,6 +161,8 @@ class Call:
     """Instructions in effect now or under a condition."""
     expected: tuple[Instruction, ...] = ()
     """Contents that the call says are to be expected. Nothing of it is an instruction."""
+    asked: tuple[Question, ...] = ()
+    """Questions of a call. Nothing of them is an instruction."""
     distress: bool = False
     """True if it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
     urgency: bool = False

@@ -15,6 +15,7 @@ from airhilt.phraseology.forms import Form
 from airhilt.phraseology.ground import route, taxi, vacate
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.lateral import taxiway_turn
+from airhilt.phraseology.questions import ADVISED
 from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, SIDED_RUNWAY, TAXIWAY
 from airhilt.phraseology.speeds import KNOTS_FORM
 from airhilt.phraseology.surveillance import FREQUENCY_FORM
@@ -165,6 +166,8 @@ class Line:
 
     def _take_aside(self, index: int, word: str) -> int:
         """Begin a condition, or words about traffic, and return their end if it is known."""
+        if word == "if" and not ADVISED.isdisjoint(self.texts[max(index - 1, 0) : index]):
+            return 0
         start, is_open = self.starts[index], self._open
         is_free = is_open is None or is_open.is_traffic
         event = self._event_at(start, index, word) if is_free else None

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from airhilt.phraseology.bare_routes import bare_route
 from airhilt.phraseology.bare_values import bare_values, without_courtesies
-from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
+from airhilt.phraseology.call import CLEARANCES, REPORTS, STOPS, Action, Asks, Instruction, Question
 from airhilt.phraseology.clauses import Line, Span
 from airhilt.phraseology.conditions import (
     YIELDED,
@@ -22,6 +22,7 @@ from airhilt.phraseology.denials import ASKS, end_of_denial, is_expected, is_mea
 from airhilt.phraseology.forms import Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
+from airhilt.phraseology.questions import asks, is_asked_afterwards
 from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown, has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
@@ -48,6 +49,7 @@ class Content:
     doing: set[Action] = field(default_factory=set)
     """Actions that are being done now, as in "climbing"."""
     expected: list[Instruction] = field(default_factory=list)
+    asked: list[Question] = field(default_factory=list)
     traffic: list[str] = field(default_factory=list)
     pressure_hpa: float | None = None
     """Altimeter setting that was read back without its word."""
@@ -66,7 +68,7 @@ def content_of(words: Words) -> Content:
     plain = text
     for span in conditions:
         plain = _blank(plain, span)
-    clauses = _clauses(line, plain)
+    clauses, content.asked = _clauses(line, plain)
     attach(conditions, clauses, text)
     merge_levels(clauses, plain)
     withdraw(clauses)
@@ -227,14 +229,16 @@ def _condition_before(start: int, spans: list[Span], text: str) -> str | None:
     return None
 
 
-def _clauses(line: Line, plain: str) -> list[Clause]:
-    """Return the clauses whose action is meant.
+def _clauses(line: Line, plain: str) -> tuple[list[Clause], list[Question]]:
+    """Return the clauses whose action is meant, and the questions about the others.
 
     The words that lead to an action are those of its clause alone, without its condition.
     """
     clauses: list[Clause] = []
+    asked: list[Question] = []
     texts, found = line.texts, line.found
     taken, floor, is_said = 0, 0, True
+    about: Asks | None = None
     aside = {
         index
         for span in line.spans
@@ -251,16 +255,24 @@ def _clauses(line: Line, plain: str) -> list[Clause]:
         taken = read.end
         after = line.index(max(each.match.end(), read.end) - 1) + 1
         lead = [texts[at] for at in range(floor, each.first) if at not in aside]
-        is_said = is_meant(
+        about = read.asks or (asks(lead, about) if lead or action not in STOPS else None)
+        is_said = about is None and is_meant(
             lead, texts[each.first : after], texts[after:], action,
             before_is_meant=is_said, is_question=is_question,
         )  # fmt: skip
+        if about == "able" and action == "say":
+            is_said = True
+        if about is not None and not is_said:
+            asked += (Question(about, told) for told in (read.instruction, *read.more))
         is_later = read.is_expected or (not is_said and action not in REPORTS and is_expected(lead))
         if is_said or is_later:
-            told, start, end, more, _ = read
+            told, start, end, more, *_ = read
             clauses.append(Clause(told, more, each, start, end, is_later))
         floor = after + (0 if is_said else end_of_denial(texts[after:]))
-    return clauses
+    if clauses and is_asked_afterwards(plain):
+        last = clauses.pop()
+        asked += (Question("able", told) for told in (last.told, *last.more))
+    return clauses, asked
 
 
 def _add(content: Content, instruction: Instruction, *, is_doing: bool = False) -> None:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
-from airhilt.phraseology.call import Action, Instruction
+from airhilt.phraseology.call import Action, Asks, Instruction
 from airhilt.phraseology.hits import STATIONS
 from airhilt.phraseology.slots import (
     FIX_ENDS,
@@ -82,6 +82,8 @@ class Read(NamedTuple):
     """Other instructions of the same words."""
     is_expected: bool = False
     """True if the words say what is to be expected."""
+    asks: Asks | None = None
+    """What the words ask about the instruction; None if they do not ask by themselves."""
 
 
 Builder = Callable[[Segment, Action], Read | None]

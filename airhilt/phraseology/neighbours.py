@@ -19,15 +19,16 @@ SAFE: frozenset[Action] = frozenset(
 """Actions without a value, of which words beside them say nothing else."""
 _OPENERS = COURTESIES | {
     "abeam", "acknowledge", "advise", "aircraft", "altimeter", "and", "arrivederci", "as", "au",
-    "be", "break", "bringing", "call", "caution", "cheers", "ciao", "company", "continue",
-    "copy", "delay", "disregard", "enter", "estimate", "except", "expect", "expecting",
-    "expedite", "extend", "face", "facing", "frequency", "goodbye", "have", "identified",
+    "are", "be", "break", "bringing", "call", "can", "caution", "cheers", "ciao", "company",
+    "confirm", "continue", "copy", "could", "delay", "disregard", "enter", "estimate", "except",
+    "expect", "expecting", "expedite", "extend", "face", "facing", "frequency", "goodbye", "have",
+    "identified",
     "immediately", "in", "information", "intercept", "it", "join", "keep", "later", "looking",
     "make", "making", "negative", "no", "number", "once", "over", "passing", "pattern", "prepare",
     "proceed", "q", "qfe", "qnh", "radar", "radio", "readback", "remain", "report", "rest",
     "say", "see", "servus", "so", "surface", "tail", "temperature", "then", "there", "they",
     "this", "through", "time", "tower", "traffic", "tschuss", "vector", "vectors", "vehicle",
-    "we", "will", "wind", "winds", "windshear", "with", "without", "yes",
+    "verify", "we", "will", "wind", "winds", "windshear", "with", "without", "yes",
 }  # fmt: skip
 """First words of what may follow any action: information, a reason, a courtesy, another action."""
 _UNITS_OF_TIME = frozenset({"minutes", "minute", "miles", "mile", "oclock", "seconds"})

@@ -21,6 +21,7 @@ from airhilt.phraseology.content import Content
 from airhilt.phraseology.corrections import content_with_corrections, without_slips
 from airhilt.phraseology.forms import UNIT
 from airhilt.phraseology.hits import NAME, Hit
+from airhilt.phraseology.questions import QUESTION, RADIO_CHECK
 from airhilt.phraseology.run_together import split_numbers
 from airhilt.phraseology.slots import FIX_ENDS, LEVEL, NO_SENSE, SHORTENED, pressure_of, wind_of
 from airhilt.phraseology.spoken_forms import is_registration
@@ -172,6 +173,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         kind=kind,
         instructions=tuple(content.instructions),
         expected=tuple(content.expected),
+        asked=tuple(content.asked),
         distress=DISTRESS in present,
         urgency=URGENCY in present,
         emergency_descent=EMERGENCY_DESCENT in text,
@@ -216,6 +218,10 @@ def _kind(
             return "readback" if all(doing) else "instruction"
         ends = words[-1] == NAME
         return "readback" if ends or not all(doing) else "report"
+    if RADIO_CHECK.search(text):
+        return "radio_check"
+    if naming.addressed_first and (content.asked or QUESTION.match(text)):
+        return "question"
     reports = (
         present & {DISTRESS, URGENCY, "unable", "negative"}
         or content.instructions

@@ -24,6 +24,8 @@ _APPROACHES = {
     "ndb": "n d b", "lda": "l d a", "sdf": "s d f", "gls": "g l s", "par": "p a r",
     "sra": "s r a",
 }  # fmt: skip
+_LANDMARKS = frozenset({"visual", "contact"})
+"""Approaches without an instrument, whose runway is said last (7110.65, 7-4-3 and 4-8-1)."""
 
 
 def phrase_of(instruction: Instruction, style: Style, *, readback: bool) -> str:
@@ -208,8 +210,9 @@ def _turn_by(of: _Slots) -> str:
 def _approach(of: _Slots) -> str:
     name = of.told.approach or ""
     kind = join(_APPROACHES.get(name, name), spell(of.told.variant or "", of.style))
-    runway = of.runway
-    return join("cleared", kind, of.of(runway, "approach"), of.of("approach", runway))
+    if name in _LANDMARKS or of.style == "icao":
+        return join("cleared", kind, "approach", of.runway)
+    return join("cleared", kind, of.runway, "approach")
 
 
 def _orbit(of: _Slots) -> str:

@@ -179,12 +179,6 @@ def report(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, segment.found.end())
 
 
-def said(segment: Segment, action: Action) -> Read | None:
-    """Read what a pilot is to say at once."""
-    read = Instruction(action, position=segment.found["event"])
-    return Read(read, segment.start, segment.found.end())
-
-
 _SHORT_LEVEL = re.compile(r"level [0-9]{1,2}$")
 _SEEN = re.compile(r"(?:it|him|them|that|that one|that traffic) in sight")
 _EVENT_ENDS = re.compile(rf"$| (?:\||#|runway|for|{FIX_ENDS})")
@@ -259,11 +253,6 @@ FORMS: Listed = (
     ("report advise call let tell", "report",
      r"(?:report|advise(?: me)?|call(?: me)?|let me know|tell me)(?P<event>(?!))?"
      r"(?= \||$)", report),
-    ("say", "say",
-     r"say (?:your |the )?(?:(?:present|current|indicated) )?"
-     r"(?P<event>(?:assigned )?(?:altitude|level|airspeed|speed|heading)|position|intentions|type"
-     r"|mach(?: number)?|fuel remaining|souls on board(?: and fuel remaining)?)"
-     r"(?: leaving| aircraft)?", said),
     ("advise", "report",
      rf"advise (?P<event>when (?:able|you can)(?:(?: take| for)?"
      rf" (?:direct(?: to)? {FIX}|higher|lower))?)", report),

@@ -92,6 +92,8 @@ SPOKEN: list[tuple[Instruction, str, str]] = [
         "cleared r nav zulu runway one approach",
         "cleared r nav zulu approach runway zero one",
     ),
+    (I("cleared_approach", "01", approach="visual"), "cleared visual approach runway one",
+     "cleared visual approach runway zero one"),
     (I("cleared_approach", approach="visual"), "cleared visual approach",
      "cleared visual approach"),
     (I("continue_approach"), "continue approach", "continue approach"),

@@ -84,6 +84,7 @@ def all_of(call: Call) -> list[str]:
     return sorted(
         [in_words(each) for each in call.instructions]
         + [in_words(each, "expect") for each in call.expected]
+        + [in_words(each.about, f"{each.asks}?") for each in call.asked]
         + [f"({each})" for each in _besides(call)]
     )
 

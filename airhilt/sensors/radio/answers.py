@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from airhilt.phraseology import Instruction, parse_call
+from airhilt.phraseology.numbers import speak_digits
 from airhilt.phraseology.say import speak_callsign, speak_readback, speak_say_again
+from airhilt.phraseology.spoken_actions import phrase_of
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import RadioCall
 
@@ -18,18 +20,55 @@ class Answers:
         self._style = context.radio.phraseology
 
     def readback(
-        self, callsign: str, instructions: Sequence[Instruction], unable: Sequence[str] = ()
+        self, callsign: str, instructions: Sequence[Instruction | str], unable: Sequence[str] = ()
     ) -> str:
-        """Return what an actor answers to instructions: it reads back or tells, or is unable."""
-        told = [self._told(callsign, each) for each in instructions]
+        """Return what an actor answers to instructions: it reads back or tells, or is unable.
+
+        Words among the instructions are said as they are.
+        """
+        told: list[Instruction | str] = []
+        unknown = []
+        for each in instructions:
+            if isinstance(each, str) or each.action != "say":
+                told.append(each)
+                continue
+            asked = each.position or ""
+            report = self._stations.report_of(callsign, asked, self._style)
+            if report is None:
+                unknown.append(asked)
+            else:
+                told.append(report)
+        if unknown:
+            told.append(f"unable to say {' or '.join(unknown)}")
         return speak_readback(callsign, [*told, *unable], self._style)
 
-    def _told(self, callsign: str, instruction: Instruction) -> Instruction | str:
-        """Return an instruction, or the words that answer one to say something."""
-        if instruction.action != "say":
-            return instruction
-        asked = instruction.position or ""
-        return self._stations.report_of(callsign, asked, self._style) or f"unable to say {asked}"
+    def yes(self) -> str:
+        """Return the word for yes (Annex 10 volume II, 5.2.1.5.8; FAA's glossary)."""
+        return "affirmative" if self._style == "faa" else "affirm"
+
+    def does(self, instruction: Instruction) -> str:
+        """Return the words of somebody who is asked whether it stands or holds, and does."""
+        words = phrase_of(instruction, self._style, readback=True)
+        return f"{self.yes()}, {words.replace('hold', 'holding', 1)}"
+
+    def of_itself(self, callsign: str, instruction: Instruction) -> str:
+        """Return what an actor says that is asked whether it does or has something."""
+        asked = instruction.action if instruction.position is None else instruction.position
+        report = self._stations.report_of(callsign, asked, self._style)
+        return report or "unable to confirm"
+
+    def whereabouts(self, callsign: str) -> str:
+        """Return the words of an actor that does not do what it is asked about."""
+        reports = (
+            self._stations.report_of(callsign, asked, self._style)
+            for asked in ("position", "intentions")
+        )
+        return ", ".join(["negative", *filter(None, reports)])
+
+    def read_you(self, called: str, caller: str) -> str:
+        """Return the answer of who is called to a radio check (Annex 10 volume II, 5.2.1.8)."""
+        names = [self._name(caller), self._name(called)]
+        return f"{', '.join(names)}, read you {speak_digits('5', self._style)}."
 
     def unreadable(self, name: str, other: str) -> str:
         """Return what somebody says who has not understood another one for the last time."""

@@ -6,17 +6,19 @@ controller gives because of an advisory, is drawn from the response model.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
 from airhilt.commands import Command, ContactCommand, GoAroundCommand
 from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
+from airhilt.phraseology.call import STOPS, Action, Question
 from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
-from airhilt.world.actors.orders import ON_THE_WAY, Order, subject_of
+from airhilt.world.actors.orders import ON_THE_WAY, Order, orders_of, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
 COMPLY_AFTER_S = 2.0
@@ -33,8 +35,8 @@ class Decision(NamedTuple):
 
     commands: tuple[ScriptedCommand, ...] = ()
     """Commands that it carries out."""
-    accepted: tuple[Instruction, ...] = ()
-    """Instructions that it reads back."""
+    accepted: tuple[Instruction | str, ...] = ()
+    """Instructions that it reads back, and words that answer questions."""
     unable: tuple[str, ...] = ()
     """Words about the rest: why it cannot do it, or what it asks before it can."""
 
@@ -79,7 +81,7 @@ class Compliance:
         why = None if first is None else self._refusal(actor, first.command)
         if why is not None:
             return self._told(actor, Decision(unable=(why,)))
-        return Decision(planned, taken.instructions)
+        return Decision(planned, (*taken.instructions, *self._answered(taken, actor)))
 
     def _ordered(self, call: RadioCall, taken: Call, actor: str) -> Decision:
         listener = self._stations.listener(call.frequency_khz)
@@ -110,9 +112,43 @@ class Compliance:
         )
         if refused.get(("surface", True)) is not None:
             accepted = [each for each in accepted if each.instruction.action not in ON_THE_WAY]
-        read_back = tuple(each.instruction for each in accepted)
-        decision = Decision(scripted, read_back, tuple(dict.fromkeys(unable)))
+        read_back: list[Instruction | str] = [each.instruction for each in accepted]
+        read_back += self._answered(taken, actor)
+        decision = Decision(scripted, tuple(read_back), tuple(dict.fromkeys(unable)))
         return self._told(actor, decision)
+
+    def _answered(self, taken: Call, actor: str) -> tuple[str, ...]:
+        """Return the answers of an actor to the questions of a call; it does nothing of them."""
+        return tuple(dict.fromkeys(self._answer(each, actor) for each in taken.asked))
+
+    def _answer(self, question: Question, actor: str) -> str:
+        about = question.about
+        if question.asks == "able":
+            if about.action == "cleared_to_land" and self._stations.on_ground(actor):
+                about = replace(about, action="taxi")  # A runway is taken for the take-off.
+            return self._why_not(about, actor) or self._answers.yes()
+        if about.action not in STOPS:
+            return self._answers.of_itself(actor, about)
+        if self._holds(about, actor):
+            return self._answers.does(about)
+        return self._answers.whereabouts(actor)
+
+    def _holds(self, about: Instruction, actor: str) -> bool:
+        """Return whether an actor stands, and could go on to the runway that it holds short of."""
+        if not self._stations.on_ground(actor) or self._stations.is_moving_on_ground(actor):
+            return False
+        if about.action != "hold_short":
+            return about.action in ("hold_position", "stop")
+        goes_on: tuple[Action, ...] = ("line_up", "cross")
+        return any(self._why_not(replace(about, action=each), actor) is None for each in goes_on)
+
+    def _why_not(self, about: Instruction, actor: str) -> str | None:
+        """Return why an actor could not do something now; None if it could."""
+        runway, variation_deg = self._stations.bound_runway(actor), self._stations.variation_deg
+        (order,) = orders_of((about,), runway, variation_deg, actor)
+        if order.command is None:
+            return order.unable or order.question or None
+        return self._refusal(actor, order.command)
 
     def _refusal(self, actor: str, command: Command, when: Condition | None = None) -> str | None:
         """Return why an actor cannot carry out a command now; a person decides without us.

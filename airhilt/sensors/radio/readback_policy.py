@@ -130,13 +130,17 @@ class ReadbackPolicy:
         is_to_crew = self._stations.is_actor(listener) and not self._stations.is_actor(call.speaker)
         if taken.kind == "hail":
             text = self._answers.hail(listener, call.speaker)
+        elif taken.kind == "radio_check":
+            text = self._answers.read_you(listener, call.speaker)
         elif is_to_crew and taken.asks_again and CALLSIGN.search(taken.text):
             text = self._answers.callsign(listener)
         elif is_to_crew and decision.accepted:
             text = self._answers.readback(listener, decision.accepted)
+        elif is_to_crew and taken.kind == "question":
+            text = self._answers.say_again(listener, call.speaker)
         else:
             return
-        is_repeated = self._radio.controller_checks_readbacks and taken.kind != "hail"
+        is_repeated = self._radio.controller_checks_readbacks and bool(decision.accepted)
         self._answer(call.reply("readback", listener, text, is_repeated=is_repeated))
 
     def readback_in_script(self, call: RadioCall, speaker: str) -> RadioCall | None:

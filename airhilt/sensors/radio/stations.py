@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
-from airhilt.geodesy.wgs84 import distance_and_azimuth
 from airhilt.phraseology.numbers import Style
-from airhilt.phraseology.say import speak_altitude, speak_heading, speak_runway, speak_speed
 from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.on_air import BackgroundNoise
+from airhilt.sensors.radio.reports import Field, report_of
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
-from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
+from airhilt.units import DEGREE, FOOT
 from airhilt.world.actors.actor import Actor
 from airhilt.world.actors.listening import Listener
 from airhilt.world.site import FixedSite, ScenarioSite
 
-COMPASS = (
-    "north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest",
-)  # fmt: skip
-"""Points of the compass, from north clockwise."""
 TAXIING_M_S = (0.5, 15.0)
 """Ground speeds in m/s between which somebody on the ground taxies or drives: an assumption."""
 GROUND_ANTENNA_M = 50.0 * FOOT
@@ -139,27 +133,13 @@ class Stations:
         return name in self._actors and self._actors[name].category == "aircraft"
 
     def report_of(self, callsign: str, asked: str, style: Style) -> str | None:
-        """Return what an actor says when it is asked for its altitude, heading or the like."""
-        state, runway = self._actors[callsign].body.state, self.bound_runway(callsign)
-        match asked.split():
-            case [*_, "altitude" | "level" | "height"]:
-                return speak_altitude(round(state.altitude_m / FOOT, -2), style)
-            case [*_, "heading" | "track"]:
-                degrees = math.degrees(
-                    math.atan2(state.velocity_east_m_s, state.velocity_north_m_s)
-                )
-                return f"heading {speak_heading((degrees - self.variation_deg) % 360.0, style)}"
-            case [*_, "speed" | "airspeed"]:
-                return speak_speed(round(state.ground_speed_m_s / KNOT), style)
-            case [*_, "position"]:
-                here = (state.latitude_rad, state.longitude_rad)
-                distance_m, bearing_rad = distance_and_azimuth(self._site_place, here)
-                miles = round(distance_m / NAUTICAL_MILE)
-                way = COMPASS[round(bearing_rad / (math.pi / 4.0)) % 8]
-                return f"{miles} miles {way} of the field" if miles else "at the field"
-            case [*_, "intentions"] if runway is not None:
-                return f"runway {speak_runway(runway, style)}"
-        return None
+        """Return what an actor says when it is asked for something; None if it does not know."""
+        field = Field(self._site_place, self.variation_deg)
+        return report_of(self._actors[callsign], asked, field, style)
+
+    def on_ground(self, callsign: str) -> bool:
+        """Return whether the ground carries an actor."""
+        return self._actors[callsign].body.on_ground
 
     def is_moving_on_ground(self, name: str) -> bool:
         """Return whether a name is that of an actor that taxies or drives."""

@@ -110,7 +110,9 @@ class Listener:
 
 def _wants_something(call: Call) -> bool:
     """Return whether a call instructs or asks, so that its words matter."""
-    return bool(call.instructions) or call.kind in ("request", "say_again", "disregard")
+    return bool(call.instructions or call.asked) or call.kind in (
+        "request", "say_again", "disregard", "radio_check", "question",
+    )  # fmt: skip
 
 
 def mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:

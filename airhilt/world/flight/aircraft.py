@@ -107,6 +107,11 @@ class Aircraft:
         return self._airframe.flaps()
 
     @property
+    def fuel_kg(self) -> float:
+        """Mass of the fuel in its tanks, in kg."""
+        return self._airframe.fuel_kg()
+
+    @property
     def dimensions(self) -> AircraftDimensions:
         """Size of the aircraft."""
         return self.kind.dimensions

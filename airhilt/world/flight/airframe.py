@@ -13,7 +13,7 @@ from typing import Any
 
 import jsbsim
 
-from airhilt.units import DEGREE, FOOT, INCH, KNOT
+from airhilt.units import DEGREE, FOOT, INCH, KNOT, POUND
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.model import ModelError, load_model
 from airhilt.world.flight.state import AircraftState, Atmosphere, InitialCondition, OnGround
@@ -101,6 +101,7 @@ class Airframe:
         """Reads the gear (0 up, 1 down)."""
         self.flaps = reader("fcs/flap-pos-norm")
         """Reads the flaps (0 up, 1 fully extended)."""
+        self._fuel_lb = reader("propulsion/total-fuel-lbs")
 
     def _find_controls(self) -> None:
         """Look up the properties of the controls."""
@@ -201,6 +202,10 @@ class Airframe:
     def _keep_wind(self, atmosphere: Atmosphere) -> None:
         wind, gusts = atmosphere, atmosphere.turbulence_wind_at_20ft_m_s
         self._wind_fps = wind.wind_north_m_s / FOOT, wind.wind_east_m_s / FOOT, gusts / FOOT
+
+    def fuel_kg(self) -> float:
+        """Return the mass of the fuel in all tanks, in kg."""
+        return self._fuel_lb() * POUND
 
     def crank(self) -> None:
         """Start piston engines with their starters, the throttles at cruise power.
