@@ -152,8 +152,7 @@ class Stations:
             case [*_, "speed" | "airspeed"]:
                 return speak_speed(round(state.ground_speed_m_s / KNOT), style)
             case [*_, "position"]:
-                here = (state.latitude_rad, state.longitude_rad)
-                distance_m, bearing_rad = distance_and_azimuth(self._site_place, here)
+                distance_m, bearing_rad = distance_and_azimuth(self._site_place, state.place)
                 miles = round(distance_m / NAUTICAL_MILE)
                 way = COMPASS[round(bearing_rad / (math.pi / 4.0)) % 8]
                 return f"{miles} miles {way} of the field" if miles else "at the field"
@@ -175,7 +174,7 @@ class Stations:
     def audible(self, speaker: str, listener: str) -> bool:
         """Return whether a listener is above the radio horizon of a speaker, and both still exist.
 
-        All units share one site, which is also that of the receiver.
+        All units share one site, which is also that of the receiver, a listener without a name.
         """
         if speaker == listener:
             return True
@@ -191,10 +190,6 @@ class Stations:
     def keyed_by(self, speaker: str) -> str | None:
         """Return the unit whose transmitter at the receiver's site is keyed, None for an actor."""
         return None if self.is_actor(speaker) else speaker
-
-    def received(self, speaker: str) -> bool:
-        """Return whether a speaker is in reach of the receiver at the units' site."""
-        return self.audible(speaker, "")
 
     def _place(self, name: str) -> Kinematics | None:
         """Return the position of an actor or a unit; None if it exists no more."""
