@@ -33,6 +33,11 @@ class SurfaceState(NamedTuple):
     """True heading, in [0, 2 pi)."""
 
     @property
+    def place(self) -> Place:
+        """Latitude and longitude."""
+        return self.latitude_rad, self.longitude_rad
+
+    @property
     def ground_speed_m_s(self) -> float:
         """Horizontal speed over the ground."""
         return math.hypot(self.velocity_north_m_s, self.velocity_east_m_s)
@@ -51,6 +56,8 @@ class SurfaceState(NamedTuple):
 class Motion(Kinematics, Protocol):
     """Place and movement, which `SurfaceState` and the state of an aircraft both have."""
 
+    @property
+    def place(self) -> Place: ...  # noqa: D102
     @property
     def height_agl_m(self) -> float: ...  # noqa: D102
     @property

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from airhilt.phraseology import Instruction, parse_call
-from airhilt.phraseology.numbers import speak_digits
+from airhilt.phraseology.numbers import Style, speak_digits
 from airhilt.phraseology.say import speak_callsign, speak_readback, speak_say_again
 from airhilt.phraseology.spoken_actions import phrase_of
-from airhilt.sensors.radio.context import RadioContext
-from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.stations import Stations
 
 
 class Answers:
     """Words of answers, in the phraseology of the scenario."""
 
-    def __init__(self, context: RadioContext) -> None:
-        self._stations = context.stations
-        self._style = context.radio.phraseology
+    def __init__(self, stations: Stations, style: Style) -> None:
+        self._stations = stations
+        self._style = style
 
     def readback(
         self, callsign: str, instructions: Sequence[Instruction | str], unable: Sequence[str] = ()
@@ -95,9 +94,9 @@ class Answers:
     def _name(self, name: str) -> str:
         return speak_callsign(name, self._style) if self._stations.is_actor(name) else name
 
-    def readback_of(self, call: RadioCall, text: str, callsign: str) -> str:
+    def readback_of(self, text: str, callsign: str, frequency_khz: int) -> str:
         """Return the readback of the words of a call."""
-        meant = self._stations.listener(call.frequency_khz).parse(text)
+        meant = self._stations.listener(frequency_khz).parse(text)
         return self.readback(callsign, meant.instructions)
 
     def say_again(self, asking: str, asked: str) -> str:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,32 +51,6 @@ class Other(NamedTuple):
     """Difference of the two carriers."""
 
 
-class Channel(Protocol):
-    """Turns the speech of a speaker into the audio of a listener."""
-
-    @property
-    def name(self) -> str:
-        """Name of the channel in logs."""
-        ...
-
-    def transmit(
-        self,
-        speech: Audio,
-        snr_db: float | None,
-        rng: np.random.Generator,
-        others: Sequence[Other] = (),
-        background: BackgroundNoise = "none",
-        wet: float | None = None,
-    ) -> Audio:
-        """Return the received audio of ``speech``; it is at least as long.
-
-        Without a ``snr_db`` it has no noise. ``others`` are on the air at the same time. ``wet`` is
-        the part of the channel in the sound (None: that of the channel); the rest is the voice as
-        it was spoken.
-        """
-        ...
-
-
 @dataclass(frozen=True)
 class Parts:
     """Output of a receiver's detector before gain control: the wanted signal, and all else."""
@@ -88,11 +62,12 @@ class Parts:
 
 
 class VhfChannel:
-    """A VHF channel of one profile."""
+    """A VHF channel of one profile: turns the speech of a speaker into the audio of a listener."""
 
     def __init__(self, profile: ChannelProfile) -> None:
         self._profile = profile
         self.name = profile.name
+        """Name of the channel in logs."""
 
     def transmit(
         self,
@@ -103,7 +78,12 @@ class VhfChannel:
         background: BackgroundNoise = "none",
         wet: float | None = None,
     ) -> Audio:
-        """Return the received audio: the call, noise, and the squelch tail."""
+        """Return the received audio of ``speech``: the call, noise, and the squelch tail.
+
+        Without a ``snr_db`` it has no noise. ``others`` are on the air at the same time. ``wet`` is
+        the part of the channel in the sound (None: that of the channel); the rest is the voice as
+        it was spoken.
+        """
         profile = self._profile
         parts = self.parts(speech, snr_db, rng, others, background)
         heard = parts.signal + parts.noise + parts.interference

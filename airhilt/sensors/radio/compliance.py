@@ -15,9 +15,8 @@ from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
 from airhilt.phraseology.call import STOPS, Action, Question
 from airhilt.scenario.models import Condition, ScriptedCommand
-from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
-from airhilt.sensors.radio.radio_call import RadioCall, Speakers
+from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
 from airhilt.world.actors.orders import ON_THE_WAY, Order, orders_of, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
@@ -50,7 +49,6 @@ class Compliance:
     def __init__(self, context: RadioContext, speakers: Speakers) -> None:
         self._context = context
         self._speakers = speakers
-        self._answers = Answers(context)
         self._director = context.director
         self._world = context.world
         self._seats = context.seats
@@ -58,22 +56,25 @@ class Compliance:
         self._reactions = reaction_models(context.scenario, context.seed)
         self._undone: set[tuple[str, str]] = set()
         """Calls, and actors, of which was told that there is no response."""
-        self._latest: dict[tuple[str, str], RadioCall] = {}
-        """The last call about each subject to each actor."""
-        self._decided: dict[tuple[str, str], tuple[ScriptedCommand, ...]] = {}
-        """Commands that actors have decided on, by the ids of the calls as they were first."""
+        self._obeyed: dict[str, list[RadioCall]] = {}
+        """Calls of which actors have decided to do something, by actor."""
 
     # --- deciding ---------------------------------------------------------------------------
 
-    def decide(self, call: RadioCall, actor: str, taken: Call, *, as_said: bool) -> Decision:
-        """Return what an actor decides to do of a call, whose words it has taken as a meaning.
+    def take(self, heard: HeardCall) -> Decision:
+        """Let an actor decide what it does of a call as it has taken it, and do that.
 
         What the script plans for its words is done; of other words, what they order.
         """
+        call, actor, taken = heard.call, heard.listener, heard.understanding.call
         planned = tuple(one for one in call.meant if one.actor == actor)
-        if as_said and (planned or (call.scripted is not None and not call.is_of_person)):
-            return self._planned(planned, taken, actor)
-        return self._ordered(call, taken, actor)
+        is_scripted = planned or (call.scripted is not None and not call.is_of_person)
+        if heard.understanding.kind == "as_said" and is_scripted:
+            decision = self._planned(planned, taken, actor)
+        else:
+            decision = self._ordered(call, taken, actor)
+        self.comply(call, actor, decision.commands)
+        return decision
 
     def _planned(self, planned: tuple[ScriptedCommand, ...], taken: Call, actor: str) -> Decision:
         soon = (one for one in planned if one.when is None and one.delay_s <= FORESEEN_S)
@@ -126,12 +127,12 @@ class Compliance:
         if question.asks == "able":
             if about.action == "cleared_to_land" and self._stations.on_ground(actor):
                 about = replace(about, action="taxi")  # A runway is taken for the take-off.
-            return self._why_not(about, actor) or self._answers.yes()
+            return self._why_not(about, actor) or self._context.answers.yes()
         if about.action not in STOPS:
-            return self._answers.of_itself(actor, about)
+            return self._context.answers.of_itself(actor, about)
         if self._holds(about, actor):
-            return self._answers.does(about)
-        return self._answers.whereabouts(actor)
+            return self._context.answers.does(about)
+        return self._context.answers.whereabouts(actor)
 
     def _holds(self, about: Instruction, actor: str) -> bool:
         """Return whether an actor stands, and could go on to the runway that it holds short of."""
@@ -179,22 +180,20 @@ class Compliance:
 
     def comply(self, call: RadioCall, actor: str, commands: tuple[ScriptedCommand, ...]) -> None:
         """Let an actor do what it has decided to do of a call, once if that is only confirmed."""
-        subjects = {subject_of(scripted.command) for scripted in commands}
-        latest = [self._latest.get((actor, subject)) for subject in subjects]
-        is_latest = all(other is not None and other.first is call.first for other in latest)
-        if self._decided.get((call.first.id, actor)) == commands and is_latest:
+        obeyed = self._obeyed.setdefault(actor, [])
+        same = (one.in_force[actor] for one in obeyed if one.first is call.first)
+        if any(all(scripted in known for scripted in commands) for known in same):
             return
-        self._decided[call.first.id, actor] = commands
-        self._latest |= {(actor, subject): call for subject in subjects}
-        for other in latest:
-            if other is not None and not self._is_latest_of_any(other, actor):
-                other.withdrawn_for.add(actor)
+        subjects = {subject_of(scripted.command) for scripted in commands}
+        for one in obeyed:
+            before = one.in_force[actor]
+            kept = [each for each in before if subject_of(each.command) not in subjects]
+            one.in_force[actor] = tuple(kept)
+        if commands:
+            call.in_force[actor] = (*call.in_force.get(actor, ()), *commands)
+            obeyed.append(call)
         for scripted in commands:
             self._do_later(call, scripted)
-
-    def _is_latest_of_any(self, call: RadioCall, actor: str) -> bool:
-        """Return whether a call is the last one to an actor about any subject."""
-        return any(name == actor and one is call for (name, _), one in self._latest.items())
 
     def _offer(self, actor: str, call: str, command: Command) -> bool:
         """Offer the person who acts for an actor a command; return False if there is none."""
@@ -234,15 +233,14 @@ class Compliance:
         self._context.publish("truth/event", event)
         unit = self._stations.unit_on(frequency_khz)
         if command.calls:
-            text = self._answers.to_unit(actor, unit or (command.unit or "station").title())
+            text = self._context.answers.to_unit(actor, unit or (command.unit or "station").title())
             hail = RadioCall(f"{call.id}.contact", frequency_khz, actor, unit, text)
             self._speakers.say_later(hail, TUNING_S)
 
     def _do_on_condition(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         def act() -> None:
             actor, command = scripted.actor, scripted.command
-            is_latest = self._latest[actor, subject_of(command)] is call
-            if actor in call.withdrawn_for or not is_latest:
+            if not call.is_in_force(actor, command):
                 return
             if isinstance(command, ContactCommand):
                 self._change_frequency(call, actor, command)

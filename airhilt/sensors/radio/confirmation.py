@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import partial
 
 from airhilt.messages import Advisory, Confirm
-from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import MOST_TIMES, RadioCall, Speakers
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
@@ -25,14 +24,15 @@ class Confirmations:
     def __init__(self, context: RadioContext, speakers: Speakers, policy: ReadbackPolicy) -> None:
         self._director = context.director
         self._stations = context.stations
-        self._answers = Answers(context)
+        self._answers = context.answers
         self._speakers = speakers
         self._policy = policy
         self._asked: set[tuple[str, str]] = set()
         """Advisories that were answered, by id and recipient."""
         self._originals: dict[str, RadioCall] = {}
         """Calls that were said again, by the ids of what was said then."""
-        self._times: dict[str, int] = {}
+        self._confirmed: set[str] = set()
+        """Ids of the calls that were."""
 
     def take(self, advisory: Advisory) -> None:
         """Let the crew or driver that an advisory asks to confirm a call do so."""
@@ -57,7 +57,7 @@ class Confirmations:
         if call is None or name not in (call.speaker, call.addressed):
             return None
         self._asked.add(key)
-        if call.is_due_again or call.id in self._times or call.first.times_given >= MOST_TIMES:
+        if call.is_due_again or call.id in self._confirmed or call.first.times_given >= MOST_TIMES:
             return None
         has_taken = call.addressed is None or call.addressed in call.taken_by
         if name != call.speaker:
@@ -77,9 +77,9 @@ class Confirmations:
 
     def _again(self, call: RadioCall) -> RadioCall:
         """Return a call as it is said again, with its readback."""
-        times = self._times[call.id] = self._times.get(call.id, 0) + 1
+        self._confirmed.add(call.id)
         again = RadioCall(
-            f"{call.id}.confirmation-{times}",
+            f"{call.id}.confirmation-1",
             call.frequency_khz,
             call.speaker,
             call.addressed,
@@ -99,7 +99,7 @@ class Confirmations:
         if before is not None and before.times_said:
             text = before.said
         else:
-            text = self._answers.readback_of(call, call.said, listener)
+            text = self._answers.readback_of(call.said, listener, call.frequency_khz)
         readback = again.reply("readback", listener, text, is_repeated=False)
         self._originals[readback.id] = call if before is None else before
         return readback

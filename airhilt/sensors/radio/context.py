@@ -12,6 +12,7 @@ from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import Condition, Radio, Scenario
 from airhilt.seats import Seats
 from airhilt.sensors.base import Publish
+from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.reception import Receptions
 from airhilt.sensors.radio.stations import Stations
@@ -82,3 +83,8 @@ class RadioContext:
     def receptions(self) -> Receptions:
         """Reception of the calls of the scenario."""
         return Receptions(self.radio)
+
+    @cached_property
+    def answers(self) -> Answers:
+        """Words of answers that are not in the script."""
+        return Answers(self.stations, self.radio.phraseology)

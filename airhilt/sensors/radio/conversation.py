@@ -26,7 +26,6 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import RadioLine
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
-from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.context import RadioContext
@@ -39,7 +38,7 @@ from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.person_calls import PersonCalls, RecognisedCall
 from airhilt.sensors.radio.ra_reports import RaReports
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers, calls_of
-from airhilt.sensors.radio.readback_policy import ANSWER_AFTER_S, ReadbackPolicy
+from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
 from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim.payload import Payload
@@ -76,17 +75,16 @@ class RadioConversation:
         self._speakers = Speakers(context, arbiter)
         self._person_calls = PersonCalls(context, self._speakers.said)
         self._microphones = Microphones(context.director, arbiter, context.seats)
-        self._answers = Answers(context)
         self._unables = 0
         """Number of calls about what an actor cannot do any more."""
         self._compliance = Compliance(context, self._speakers)
         self._policy = policy = ReadbackPolicy(context, self._calls, self._speakers)
         hearing = hearing or HearingModel(context.seed)
         self._confirmations = Confirmations(context, self._speakers, policy)
-        self._controllers = Controllers(context, self._speakers, self._confirmations)
+        self._controllers = Controllers(context, self._speakers, policy, self._confirmations)
         self._ra_reports = RaReports(context, self._speakers, self._controllers.contact)
         self._listeners = Listeners(
-            context, hearing, transmissions, self._compliance, policy, self._controllers.heard
+            context, hearing, transmissions, self._compliance, policy, self._controllers
         )
         self._advisories: AdvisoryCalls | None = None
         if advisory_channel is not None:
@@ -180,9 +178,9 @@ class RadioConversation:
         if contact is not None:
             self._unables += 1
             name = f"unable.{key_chunk(callsign)}.{self._unables}"
-            text = self._answers.to_unit(callsign, contact.unit, why)
+            text = self._context.answers.to_unit(callsign, contact.unit, why)
             call = RadioCall(name, contact.frequency_khz, callsign, contact.unit, text)
-            self._speakers.say_later(call, ANSWER_AFTER_S)
+            self._speakers.say_later(call)
 
     # --- what comes of it -------------------------------------------------------------------
 

@@ -17,13 +17,7 @@ from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError, first_line
 from airhilt.host.onnx import first_look, open_network
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.channel import (
-    LEVEL_RMS,
-    Other,
-    VhfChannel,
-    active,
-    with_voice,
-)
+from airhilt.sensors.radio.channel import LEVEL_RMS, Other, VhfChannel, active, with_voice
 from airhilt.sensors.radio.on_air import BackgroundNoise
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
@@ -31,14 +25,15 @@ TRIAL_SAMPLES = (1_600, 2_311)
 """Numbers of samples that a model is tried with when it is loaded; the second is odd on purpose."""
 
 
-class LearnedChannel:
-    """A `Channel` whose modulation is an ONNX model.
+class LearnedChannel(VhfChannel):
+    """A VHF channel whose modulation is an ONNX model.
 
     Each trial of the model must end within a limit of wall time in s; by default that of
     `first_look`. A SpeechError says that the file is not a model of this kind, or never ends.
     """
 
     def __init__(self, path: Path, limit_s: float | None = None) -> None:
+        super().__init__(PROFILES["vhf"])
         self.name = path.stem
         self._path = path
         self._session = open_network(path, f"learned channel {path}", EXPECTED)
@@ -50,7 +45,6 @@ class LearnedChannel:
         for count in TRIAL_SAMPLES:
             trial = np.sin(np.arange(count, dtype=np.float32)) * np.float32(LEVEL_RMS)
             self._made(trial, lambda inputs: first_look(self._session, inputs, limit_s))
-        self._vhf = VhfChannel(PROFILES["vhf"])
 
     def transmit(
         self,
@@ -62,9 +56,9 @@ class LearnedChannel:
         wet: float | None = None,
     ) -> Audio:
         """Return the received audio of ``speech``; the model has a background of its own."""
-        noise = self._vhf.parts(speech, snr_db, rng).noise
+        noise = self.parts(speech, snr_db, rng).noise
         signal = self._signal(np.asarray(speech, np.float32))
-        heard = signal + noise + self._vhf.interference(signal, others, rng)
+        heard = signal + noise + self.interference(signal, others, rng)
         heard = with_voice(heard, np.asarray(speech, np.float32), 1.0 if wet is None else wet)
         return np.asarray(np.clip(heard, -1.0, 1.0), np.float32)
 

@@ -5,24 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Literal
 
 from airhilt.messages import HearingTruth, Transcript
 from airhilt.sensors.radio.compliance import Compliance, Decision
 from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.controllers import Controllers
 from airhilt.sensors.radio.hearing import HearingModel, Outcome, hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
-from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.radio_call import UNCLEAR, HeardCall, RadioCall
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.transmissions import Transmissions
-from airhilt.world.actors.listening import Listener, Understanding
+from airhilt.world.actors.listening import Understanding
 
 TRANSCRIPT_PATIENCE_S = 20.0
 """Time in s after the end of a call for which a crew that reads waits for the transcript."""
 
-NOTHING = Understanding("not_for_me")
-AS_SAID = Understanding("as_said")
-UNCLEAR = Understanding("unclear")
 _OUTCOMES: dict[str, Outcome] = {
     "as_said": "understood",
     "otherwise": "misheard",
@@ -30,8 +27,8 @@ _OUTCOMES: dict[str, Outcome] = {
     "not_for_me": "missed",
 }
 
-Read = Callable[[str, tuple[float, ...] | None], None]
-"""Called with the words of a transcript, none if there is no transcript, and their confidences."""
+Confidences = tuple[float, ...] | None
+"""Confidence of each word of a transcript; None if the recogniser gives none."""
 
 
 class Listeners:
@@ -48,7 +45,7 @@ class Listeners:
         transmissions: Transmissions,
         compliance: Compliance,
         policy: ReadbackPolicy,
-        heard_by_unit: Callable[[RadioCall, str, str], None],
+        controllers: Controllers,
     ) -> None:
         self._context = context
         self._radio = context.radio
@@ -58,9 +55,10 @@ class Listeners:
         self._transmissions = transmissions
         self._compliance = compliance
         self._policy = policy
-        self._heard_by_unit = heard_by_unit
-        self._waiting: dict[str, list[Read]] = {}
-        """Listeners that wait for the transcript of a transmission, by its id."""
+        self._controllers = controllers
+        self._waiting: dict[str, list[Callable[[str, Confidences], None]]] = {}
+        """What is done with the words of a transmission, by its id, once its transcript is there,
+        or without words if there is none."""
 
     # --- by ear -----------------------------------------------------------------------------
 
@@ -68,38 +66,35 @@ class Listeners:
         """Let the recipients of a call hear it, except those who read."""
         for listener in call.recipients():
             if not self._reads(listener):
-                self._hear(call, on_air, listener)
+                heard = HeardCall(call, on_air.utterance, listener)
+                self._take(self._by_ear(heard) if self._gets(heard, on_air) else heard)
 
-    def _hear(self, call: RadioCall, on_air: OnAir, listener: str) -> None:
-        said = on_air.utterance
-        if not self._gets(call, on_air, listener):
-            self._understand(call, said, listener, NOTHING, "")
-            return
+    def _by_ear(self, heard: HeardCall) -> HeardCall:
+        """Return a call that reaches a listener as the listener understands it."""
+        said, listener = heard.said, heard.listener
         if self._seats.has_person(listener):
-            self._understand(call, said, listener, AS_SAID, said.text)
-            return
+            return self._as_said(heard)
         snr_db = self._context.receptions.of(said, listener).snr_db
-        heard = self._hearing.listen(
-            said.id, listener, said.text, snr_db, 2 if call.is_said_twice else 1
-        )
-        match heard.outcome:
+        times = 2 if heard.call.is_said_twice else 1
+        drawn = self._hearing.listen(said.id, listener, said.text, snr_db, times)
+        match drawn.outcome:
             case "understood":
-                understanding = AS_SAID
+                return self._as_said(heard)
             case "misheard":
-                understanding = self._interpret(call, said, listener, heard.text, None)
+                return self._interpreted(heard, drawn.text, None)
             case "unsure":
-                understanding = UNCLEAR
+                return replace(heard, text=drawn.text, understanding=UNCLEAR)
             case "missed":
-                understanding = NOTHING
-        self._understand(call, said, listener, understanding, heard.text)
+                return heard
 
-    def _gets(self, call: RadioCall, on_air: OnAir, listener: str) -> bool:
+    def _gets(self, heard: HeardCall, on_air: OnAir) -> bool:
         """Return whether a call comes to a recipient, who then may hear it well or not."""
+        listener, frequency_khz = heard.listener, heard.said.frequency_khz
         return (
-            listener not in call.deaf
-            and self._stations.is_on(listener, on_air.utterance.frequency_khz)
+            listener not in heard.call.deaf
+            and self._stations.is_on(listener, frequency_khz)
             and self._transmissions.reaches(on_air, listener)
-            and self._seats.listens(listener, on_air.utterance.frequency_khz)
+            and self._seats.listens(listener, frequency_khz)
         )
 
     # --- by transcript ----------------------------------------------------------------------
@@ -111,23 +106,25 @@ class Listeners:
     def let_read(self, call: RadioCall, said: Utterance, *, is_blocked: bool) -> None:
         """Let the crews that read wait for the transcript of a call.
 
-        Nobody reads a call that was received with another in it.
+        Nobody reads a call that was received with another in it. A crew may take a call of a unit
+        to somebody else for its own.
         """
-        recipients = call.recipients()
+        recipients, is_of_unit = call.recipients(), not self._stations.is_actor(said.speaker)
+        waiting: list[Callable[[str, Confidences], None]] = []
         for listener in self._stations.actors_on(said.frequency_khz):
             if listener == said.speaker or not self._reads(listener):
                 continue
+            heard = HeardCall(call, said, listener, "transcript")
             may_overhear = self._radio.overhearing and not self._seats.has_person(listener)
             is_off = not self._seats.listens(listener, said.frequency_khz)
             if listener in recipients and (is_blocked or is_off or listener in call.deaf):
-                self._understand(call, said, listener, NOTHING, "", source="transcript")
+                self._take(heard)
             elif listener in recipients:
-                read = partial(self._read, call, said, listener)
-                self._waiting.setdefault(said.id, []).append(read)
-            elif may_overhear and not is_blocked and listener not in call.taken_by:
-                overhear = partial(self._overhear, call, said, listener)
-                self._waiting.setdefault(said.id, []).append(overhear)
-        if said.id in self._waiting:
+                waiting.append(partial(self._read, heard))
+            elif is_of_unit and may_overhear and not is_blocked and listener not in call.taken_by:
+                waiting.append(partial(self._overhear, heard))
+        if waiting:
+            self._waiting[said.id] = waiting
             give_up = partial(self._hand_out, said.id, "", None)
             self._context.director.after(TRANSCRIPT_PATIENCE_S, give_up)
 
@@ -136,42 +133,22 @@ class Listeners:
         confidences = tuple(word.confidence for word in transcript.words) or None
         self._hand_out(transcript.id, transcript.text, confidences)
 
-    def _hand_out(
-        self, transmission: str, text: str, confidences: tuple[float, ...] | None
-    ) -> None:
+    def _hand_out(self, transmission: str, text: str, confidences: Confidences) -> None:
         for read in self._waiting.pop(transmission, ()):
             read(text, confidences)
 
-    def _read(
-        self,
-        call: RadioCall,
-        said: Utterance,
-        listener: str,
-        text: str,
-        confidences: tuple[float, ...] | None,
-    ) -> None:
+    def _read(self, heard: HeardCall, text: str, confidences: Confidences) -> None:
         """Let a recipient of a call read its transcript."""
-        understanding = NOTHING
-        if text:
-            understanding = self._interpret(call, said, listener, text, confidences)
-        self._understand(call, said, listener, understanding, text, source="transcript")
+        self._take(self._interpreted(heard, text, confidences) if text else heard)
 
-    def _overhear(
-        self,
-        call: RadioCall,
-        said: Utterance,
-        listener: str,
-        text: str,
-        confidences: tuple[float, ...] | None,
-    ) -> None:
+    def _overhear(self, heard: HeardCall, text: str, confidences: Confidences) -> None:
         """Let a crew read a call for somebody else, which it may take for its own."""
-        if not text or self._stations.is_actor(said.speaker):
-            return
-        understanding = self._listener(call).overhear(text, said.text, listener, confidences)
-        if understanding.kind == "otherwise" and understanding.call is not None:
-            self._publish_truth(said, listener, understanding, text, source="transcript")
-            decision = self._compliance.decide(call, listener, understanding.call, as_said=False)
-            self._compliance.comply(call, listener, decision.commands)
+        listener = self._stations.listener(heard.call.frequency_khz)
+        taken = listener.overhear(text, heard.said.text, heard.listener, confidences)
+        if taken.kind == "otherwise":
+            heard = replace(heard, text=text, understanding=taken)
+            self._publish_truth(heard)
+            self._compliance.take(heard)
 
     # --- spoken by a person -----------------------------------------------------------------
 
@@ -180,71 +157,54 @@ class Listeners:
     ) -> None:
         """Let the recipients of a call that a person spoke take it as it was recognised."""
         for listener in call.recipients():
-            is_heard = self._gets(call, on_air, listener)
-            understanding = (AS_SAID if is_clear else UNCLEAR) if is_heard else NOTHING
-            text = said.text if is_heard else ""
-            self._understand(call, said, listener, understanding, text, source="transcript")
+            heard = HeardCall(call, said, listener, "transcript")
+            if self._gets(heard, on_air):
+                unclear = replace(heard, text=said.text, understanding=UNCLEAR)
+                heard = self._as_said(heard) if is_clear else unclear
+            self._take(heard)
 
     # --- what it means ----------------------------------------------------------------------
 
-    def _interpret(
-        self,
-        call: RadioCall,
-        said: Utterance,
-        listener: str,
-        heard: str,
-        confidences: tuple[float, ...] | None,
-    ) -> Understanding:
-        """Return what a recipient of a call makes of the words that arrived.
+    def _as_said(self, heard: HeardCall) -> HeardCall:
+        """Return a call as it is understood by who has heard every word."""
+        text = heard.said.text
+        meant = self._stations.listener(heard.call.frequency_khz).parse(text)
+        return replace(heard, text=text, understanding=Understanding("as_said", meant))
+
+    def _interpreted(self, heard: HeardCall, text: str, confidences: Confidences) -> HeardCall:
+        """Return a call as a recipient understands the words that arrived.
 
         An actor knows a call by its own callsign, or by the one that it takes for its own; a unit
         by that of the caller.
         """
-        stations = self._stations
-        names = [listener, call.addressed or ""]
-        if not stations.is_actor(listener):
+        call, stations = heard.call, self._stations
+        names = [heard.listener, call.addressed or ""]
+        if not stations.is_actor(heard.listener):
             names = [call.speaker]
         known_by = tuple(name for name in names if stations.is_actor(name))
-        return self._listener(call).understand(heard, said.text, known_by, confidences)
+        listener = stations.listener(call.frequency_khz)
+        taken = listener.understand(text, heard.said.text, known_by, confidences)
+        return replace(heard, text=text, understanding=taken)
 
-    def _listener(self, call: RadioCall) -> Listener:
-        return self._stations.listener(call.frequency_khz)
+    def _take(self, heard: HeardCall) -> None:
+        """Let a recipient act on a call, and answer it, as it has understood it."""
+        self._publish_truth(heard)
+        is_actor = self._stations.is_actor(heard.listener)
+        if heard.text and not is_actor:
+            self._controllers.heard(heard)
+        is_decided = heard.is_taken and is_actor
+        decision = self._compliance.take(heard) if is_decided else Decision()
+        self._policy.follow_up(heard, decision)
+        if heard.is_taken and not is_actor:
+            self._controllers.check(heard)
 
-    def _understand(
-        self,
-        call: RadioCall,
-        said: Utterance,
-        listener: str,
-        understanding: Understanding,
-        text: str,
-        source: Literal["ear", "transcript"] = "ear",
-    ) -> None:
-        self._publish_truth(said, listener, understanding, text, source)
-        if text and not self._stations.is_actor(listener):
-            self._heard_by_unit(call, listener, text)
-        decision, kind = Decision(), understanding.kind
-        if kind in ("as_said", "otherwise"):
-            taken = understanding.call or self._listener(call).parse(said.text)
-            understanding = replace(understanding, call=taken)
-            if self._stations.is_actor(listener):
-                decision = self._compliance.decide(call, listener, taken, as_said=kind == "as_said")
-                self._compliance.comply(call, listener, decision.commands)
-        self._policy.follow_up(call, said, listener, understanding, decision)
-
-    def _publish_truth(
-        self,
-        said: Utterance,
-        listener: str,
-        understanding: Understanding,
-        text: str,
-        source: Literal["ear", "transcript"],
-    ) -> None:
+    def _publish_truth(self, heard: HeardCall) -> None:
         truth = HearingTruth(
             t_ns=self._context.director.now_ns,
-            id=said.id,
-            actor=listener,
-            outcome=_OUTCOMES[understanding.kind],
-            text=text,
-            source=source,
+            id=heard.said.id,
+            actor=heard.listener,
+            outcome=_OUTCOMES[heard.understanding.kind],
+            text=heard.text,
+            source=heard.source,
         )
-        self._context.publish(hearing_key(listener), truth)
+        self._context.publish(hearing_key(heard.listener), truth)

@@ -5,17 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
+from airhilt.commands import Command
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, Scenario, ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import Utterance
+from airhilt.world.actors.listening import Understanding
 
 MOST_TIMES = 3
 """Number of times that the content of a call is given before its speaker gives up."""
+
+ANSWER_AFTER_S = 1.0
+"""Time in s from the end of a call to an answer that is not in the script: an estimate."""
+
+MISSED = Understanding("not_for_me")
+UNCLEAR = Understanding("unclear")
 
 
 @dataclass(eq=False)
@@ -52,8 +60,8 @@ class RadioCall:
     is_due_again: bool = False
     is_given_up: bool = False
     """True once somebody has said that it cannot be understood."""
-    withdrawn_for: set[str] = field(default_factory=set)
-    """Actors that leave undone what they have not done of it yet."""
+    in_force: dict[str, tuple[ScriptedCommand, ...]] = field(default_factory=dict)
+    """Commands that actors have decided on, as far as nothing has replaced them since."""
     taken_by: set[str] = field(default_factory=set)
     _then: dict[str, list[Callable[[], None]]] = field(default_factory=dict)
 
@@ -96,7 +104,15 @@ class RadioCall:
     def is_outdated(self) -> bool:
         """True for an answer to what its speaker has been told otherwise about since."""
         told = self.in_reply_to
-        return self.scripted is None and told is not None and self.speaker in told.withdrawn_for
+        return self.scripted is None and told is not None and told.is_replaced_for(self.speaker)
+
+    def is_replaced_for(self, actor: str) -> bool:
+        """Return whether something has replaced all that an actor was to do."""
+        return self.in_force.get(actor) == ()
+
+    def is_in_force(self, actor: str, command: Command) -> bool:
+        """Return whether an actor is still to do a command."""
+        return any(one.command == command for one in self.in_force.get(actor, ()))
 
     def recipients(self) -> list[str]:
         """Return who has yet to take it: its addressee, and all that it gives commands to."""
@@ -123,6 +139,24 @@ class RadioCall:
             action()
 
 
+@dataclass(frozen=True, slots=True)
+class HeardCall:
+    """A call as one listener has heard or read it."""
+
+    call: RadioCall
+    said: Utterance
+    listener: str
+    source: Literal["ear", "transcript"] = "ear"
+    text: str = ""
+    """Words that came to the listener."""
+    understanding: Understanding = MISSED
+
+    @property
+    def is_taken(self) -> bool:
+        """True if the listener acts on it, rightly or not."""
+        return self.understanding.kind in ("as_said", "otherwise")
+
+
 class Speakers:
     """Lets units and actors make calls, where no person speaks for them."""
 
@@ -134,7 +168,7 @@ class Speakers:
         self._context = context
         self._arbiter = arbiter
 
-    def say_later(self, call: RadioCall, delay_s: float) -> None:
+    def say_later(self, call: RadioCall, delay_s: float = ANSWER_AFTER_S) -> None:
         """Make a call after a delay in s."""
         self._context.director.after(delay_s, partial(self.say, call))
 

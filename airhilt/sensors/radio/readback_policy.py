@@ -6,19 +6,19 @@ import re
 from collections.abc import Mapping
 
 from airhilt.commands import HoldPositionCommand
-from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import Decision
 from airhilt.sensors.radio.context import RadioContext
-from airhilt.sensors.radio.controller_check import ControllerCheck
-from airhilt.sensors.radio.on_air import Utterance
-from airhilt.sensors.radio.radio_call import MOST_TIMES, RadioCall, Speakers
+from airhilt.sensors.radio.radio_call import (
+    ANSWER_AFTER_S,
+    MOST_TIMES,
+    HeardCall,
+    RadioCall,
+    Speakers,
+)
 from airhilt.sim.streams import stream
-from airhilt.world.actors.listening import Understanding
 
 CALLSIGN = re.compile(r"\b(?:callsign|call sign)\b")
 """Words of a question for the callsign."""
-ANSWER_AFTER_S = 1.0
-"""Time in s from the end of a call to an answer that is not in the script: an estimate."""
 REPEAT_AFTER_S = 6.0
 """Least time in s after which an unanswered call is made again: an estimate."""
 REPEAT_SPREAD_S = 2.0
@@ -40,67 +40,41 @@ class ReadbackPolicy:
         self._world = context.world
         self._calls = calls
         self._speakers = speakers
-        self._answers = Answers(context)
-        self._check = ControllerCheck(context.stations, self._answers)
+        self._answers = context.answers
 
-    def follow_up(
-        self,
-        call: RadioCall,
-        said: Utterance,
-        listener: str,
-        understanding: Understanding,
-        decision: Decision,
-    ) -> None:
+    def follow_up(self, heard: HeardCall, decision: Decision) -> None:
         """Let a recipient of a call answer it as it was understood, or its speaker repeat it."""
-        match understanding.kind:
-            case "as_said" | "otherwise":
-                self._taken(call, said, listener, understanding, decision)
-            case "unclear" if listener == call.addressed:
-                self._ask_again(call, listener)
-            case "not_for_me" if listener == call.addressed:
-                self._unanswered(call, listener)
+        if heard.is_taken:
+            self._taken(heard, decision)
+        elif heard.listener == heard.call.addressed:
+            if heard.understanding.kind == "unclear":
+                self._ask_again(heard.call, heard.listener)
+            else:
+                self._unanswered(heard.call, heard.listener)
 
-    def _answer(self, call: RadioCall, after_s: float = ANSWER_AFTER_S) -> None:
-        self._speakers.say_later(call, after_s)
-
-    def call_again(self, call: RadioCall) -> None:
+    def call_again(self, call: RadioCall, after_s: float = ANSWER_AFTER_S) -> None:
         """Let the speaker of a call make it once more, because its addressee has asked for it."""
-        self._give_again(call, ANSWER_AFTER_S)
-
-    def _give_again(self, call: RadioCall, after_s: float) -> None:
         if not call.is_of_person and call.first.times_given < MOST_TIMES:
             self._say_again_later(call, after_s)
 
     # --- reading back -----------------------------------------------------------------------
 
-    def _taken(
-        self,
-        call: RadioCall,
-        said: Utterance,
-        listener: str,
-        understanding: Understanding,
-        decision: Decision,
-    ) -> None:
+    def _taken(self, heard: HeardCall, decision: Decision) -> None:
         """Go on with what follows from a call once a recipient has taken it."""
+        call, listener = heard.call, heard.listener
         is_in_other_words = call.is_of_person and call.scripted is not None and not call.commands
-        is_changed = bool(decision.unable) or understanding.kind == "otherwise" or is_in_other_words
-        if self._stations.is_actor(listener) and is_changed:
+        is_as_said = heard.understanding.kind == "as_said" and not is_in_other_words
+        if self._stations.is_actor(listener) and (decision.unable or not is_as_said):
             self._answer_otherwise(call, listener, decision)
         elif self._reads_back(call):
-            self._read_back(call, listener, understanding, decision)
+            self._read_back(heard, decision)
         call.take(listener)
         if listener != call.addressed:
             return
         if call.asks_for is not None:
             self.call_again(call.asks_for)
         if call.answer is not None:
-            self._answer(call.answer)
-        if self._radio.controller_checks_readbacks:
-            correction = self._check.correction(call, said, listener)
-            if correction is not None and correction is call.in_reply_to:
-                self.call_again(correction)
-            elif correction is not None:
-                self._answer(correction)
+            self._speakers.say_later(call.answer)
 
     def _answer_otherwise(self, call: RadioCall, listener: str, decision: Decision) -> None:
         """Let an actor answer what it has decided, in place of what was planned."""
@@ -110,22 +84,19 @@ class ReadbackPolicy:
             planned.text, planned.commands = text, ()
         elif decision.unable or self._reads_back(call):
             is_repeated = self._radio.controller_checks_readbacks
-            self._answer(call.reply("readback", listener, text, is_repeated=is_repeated))
+            reply = call.reply("readback", listener, text, is_repeated=is_repeated)
+            self._speakers.say_later(reply)
 
     def _reads_back(self, call: RadioCall) -> bool:
         """Return whether a call is read back that the script does not read back."""
         return self._radio.readbacks == "generated" or call.scripted is None or call.is_of_person
 
-    def _read_back(
-        self, call: RadioCall, listener: str, understanding: Understanding, decision: Decision
-    ) -> None:
+    def _read_back(self, heard: HeardCall, decision: Decision) -> None:
         """Let somebody answer a call that no line of the script answers."""
+        call, listener, taken = heard.call, heard.listener, heard.understanding.call
         if call.answer is not None or self.readback_in_script(call, listener) is not None:
             return
         if call.in_reply_to is not None and call.gives_again is None:
-            return
-        taken = understanding.call
-        if taken is None:
             return
         is_to_crew = self._stations.is_actor(listener) and not self._stations.is_actor(call.speaker)
         if taken.kind == "hail":
@@ -141,7 +112,7 @@ class ReadbackPolicy:
         else:
             return
         is_repeated = self._radio.controller_checks_readbacks and bool(decision.accepted)
-        self._answer(call.reply("readback", listener, text, is_repeated=is_repeated))
+        self._speakers.say_later(call.reply("readback", listener, text, is_repeated=is_repeated))
 
     def readback_in_script(self, call: RadioCall, speaker: str) -> RadioCall | None:
         """Return the line in which somebody reads a call back, None if there is none."""
@@ -155,7 +126,7 @@ class ReadbackPolicy:
     def _ask_again(self, call: RadioCall, listener: str, after_s: float = ANSWER_AFTER_S) -> None:
         """Let an addressee who is not sure of a call, or waits for it, ask for it again."""
         if call.asks_for is not None:
-            self._give_again(call.asks_for, REPEAT_AFTER_S)
+            self.call_again(call.asks_for, REPEAT_AFTER_S)
             return
         if not call.is_of_person and call.first.times_given >= MOST_TIMES:
             self._give_up(call, listener, self._answers.unreadable(listener, call.speaker))
@@ -168,7 +139,7 @@ class ReadbackPolicy:
             asks_for=None if call.is_of_person else call,
         )
         self._questions[frozenset((listener, call.speaker))] = call
-        self._answer(question, after_s)
+        self._speakers.say_later(question, after_s)
 
     def has_question(self, one: str, other: str | None) -> bool:
         """Return whether one of two waits for what it has asked the other to say again."""
@@ -186,7 +157,7 @@ class ReadbackPolicy:
             return  # Nobody notices: that is the failure of the scenario.
         asked = call.asks_for
         if asked is not None and self._is_wanted(asked):
-            self._give_again(asked, REPEAT_AFTER_S)
+            self.call_again(asked, REPEAT_AFTER_S)
         elif (asked is not None and call.times_said < MOST_TIMES) or (
             self._is_wanted(call) and call.first.times_given < MOST_TIMES
         ):
@@ -207,7 +178,7 @@ class ReadbackPolicy:
             self._world.do(name, HoldPositionCommand(action="hold_position"))
             text = f"{text.removesuffix('.')}, holding position."
         end = RadioCall(f"{call.first.id}.end", khz, name, other, text, is_repeated=False)
-        self._answer(end)
+        self._speakers.say_later(end)
 
     def _is_wanted(self, call: RadioCall) -> bool:
         """Return whether a call is made until it is taken; a person does that by itself."""

@@ -99,10 +99,7 @@ class RadioReceiver:
         return is_loud and self._is_in_reach(said.speaker)
 
     def _is_in_reach(self, speaker: str) -> bool:
-        stations = self._context.stations
-        if self._seat is None:
-            return stations.received(speaker)
-        return stations.audible(speaker, self._seat)
+        return self._context.stations.audible(speaker, self._seat or "")
 
     def _stream_later(self, on_air: OnAir) -> None:
         director = self._context.director

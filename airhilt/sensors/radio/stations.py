@@ -155,7 +155,7 @@ class Stations:
     def audible(self, speaker: str, listener: str) -> bool:
         """Return whether a listener is above the radio horizon of a speaker, and both still exist.
 
-        All units share one site, which is also that of the receiver.
+        All units share one site, which is also that of the receiver, a listener without a name.
         """
         if speaker == listener:
             return True
@@ -171,10 +171,6 @@ class Stations:
     def keyed_by(self, speaker: str) -> str | None:
         """Return the unit whose transmitter at the receiver's site is keyed, None for an actor."""
         return None if self.is_actor(speaker) else speaker
-
-    def received(self, speaker: str) -> bool:
-        """Return whether a speaker is in reach of the receiver at the units' site."""
-        return self.audible(speaker, "")
 
     def _place(self, name: str) -> Kinematics | None:
         """Return the position of an actor or a unit; None if it exists no more."""

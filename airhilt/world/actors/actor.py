@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from airhilt.commands import Command
+from airhilt.errors import ScenarioError
 from airhilt.messages import Advisory, EmitterCategory, Recommendation
 from airhilt.scenario.models import ActorSpec, Channel
 from airhilt.world.mover import Mover
@@ -18,6 +20,29 @@ Act = Callable[[], None]
 
 class Unable(Exception):
     """An actor cannot carry out a command; the text is what it would say on the radio."""
+
+
+@contextmanager
+def saying_unable() -> Iterator[None]:
+    """Raise `Unable` for whatever cannot be done."""
+    try:
+        yield
+    except (ValueError, ScenarioError) as error:
+        raise Unable(f"unable, {error}") from None
+
+
+def refusal_by(plan: Callable[[Command], object], command: Command) -> str | None:
+    """Return why a command cannot be planned; None if it can."""
+    try:
+        with saying_unable():
+            plan(command)
+    except Unable as unable:
+        return str(unable)
+    return None
+
+
+def do_nothing() -> None:
+    """Do what is done already."""
 
 
 @dataclass(frozen=True, slots=True)

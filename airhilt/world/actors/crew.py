@@ -30,13 +30,11 @@ from airhilt.commands import (
     TurnCommand,
     VacateCommand,
 )
-from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import (
     Advisory,
     CancelTakeoff,
     Climb,
-    Confirm,
     EmitterCategory,
     GoAround,
     HoldPosition,
@@ -46,7 +44,7 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
-from airhilt.world.actors.actor import Act, Actor, Reaction, Unable
+from airhilt.world.actors.actor import Act, Actor, Reaction, Unable, refusal_by, saying_unable
 from airhilt.world.actors.air_phases import refusal_in_phase
 from airhilt.world.actors.approaches import Approaches
 from airhilt.world.actors.behind import BehindTraffic
@@ -172,13 +170,7 @@ class Crew:
 
     def refusal(self, command: Command) -> str | None:
         """Return why the crew cannot carry out a command now; None if it can."""
-        try:
-            self._plan(command)
-        except Unable as unable:
-            return str(unable)
-        except (ValueError, ScenarioError) as error:
-            return f"unable, {error}"
-        return None
+        return refusal_by(self._plan, command)
 
     def command(self, command: Command) -> None:
         """Carry out a command, now or after the advisory that is followed, or raise `Unable`."""
@@ -189,27 +181,19 @@ class Crew:
 
     def attend(self) -> None:
         """Take the next step of an operation if it is due, or raise `Unable`."""
-        try:
+        with saying_unable():
             if (command := self._behind.due()) is not None:
                 self._carry_out(command)
             self._ground.attend()
             self._departure.attend()
             self.runway_operations.attend()
-        except (ValueError, ScenarioError) as error:
-            raise Unable(f"unable, {error}") from None
 
     def _carry_out(self, command: Command) -> None:
-        try:
-            act = self._plan(command)
-            if act is None:
-                self._fly(command)
-            else:
-                act()
-        except (ValueError, ScenarioError) as error:
-            raise Unable(f"unable, {error}") from None
+        with saying_unable():
+            self._plan(command)()
 
-    def _plan(self, command: Command) -> Act | None:
-        """Return what carries out a command on the ground; None for one that is for the air.
+    def _plan(self, command: Command) -> Act:
+        """Return what carries out a command.
 
         A crew that holds because of a warning does not go on to a runway by a clearance that it
         took before, nor by another one, until the warning is over. `Unable`, ValueError or
@@ -238,7 +222,7 @@ class Crew:
             return partial(self._do_en_route, act, command)
         if not isinstance(command, FLOWN):
             raise Unable(f"unable to {command.action.replace('_', ' ')}")
-        return None
+        return partial(self._fly, command)
 
     def _do_en_route(self, act: Act, command: Command) -> None:
         act()
@@ -321,7 +305,7 @@ class Crew:
     ) -> bool:
         if advisory.id in self._over or self._followed.get(advisory.id, -1) > advisory.revision:
             return False
-        try:
+        with saying_unable():
             match recommendation:
                 case GoAround():
                     return self.runway_operations.go_around()
@@ -333,10 +317,7 @@ class Crew:
                     return self._avoid(advisory, self._flown(recommendation, response))
                 case MaintainLevel() | Turn():
                     return self._avoid(advisory, recommendation)
-                case Confirm():
-                    return False
-        except ValueError as error:
-            raise Unable(f"unable, {error}") from None
+        return False
 
     def _hold_position(self) -> bool:
         """Stop taxiing; return whether there was anything to stop."""

@@ -19,7 +19,7 @@ from airhilt.commands import (
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import DEGREE, FOOT, KNOT
-from airhilt.world.actors.actor import Act, Unable
+from airhilt.world.actors.actor import Act, Unable, do_nothing
 from airhilt.world.actors.final_approach import FinalApproach
 from airhilt.world.actors.ground_operations import GroundOperations
 from airhilt.world.actors.runway_operations import RunwayOperations
@@ -107,7 +107,7 @@ class Departure:
             case "line_up" | "taxi":
                 do = aircraft.procedures.hold_position
             case "lined_up" | "standing":
-                do = _nothing
+                do = do_nothing
             case "rejected_takeoff":
                 raise Unable("unable, takeoff rejected already")
             case "rotate" if aircraft.on_ground:
@@ -144,7 +144,7 @@ class Departure:
 
     def _plan_entry(self, hold: Hold, runway: str) -> Act:
         """Return what lines up from a hold, or from where the aircraft is beyond it."""
-        here = self._here
+        here = self._aircraft.state.place
         final = FinalApproach(self._site.airport, self._site.runway(runway))
         try:
             path = self._site.airport.entry_path(hold, runway)
@@ -190,7 +190,7 @@ class Departure:
         self._require_on_ground()
         airport, end = self._site.airport, self._site.runway(runway)
         final = FinalApproach(airport, end)
-        path = [self._here]
+        path = [self._aircraft.state.place]
         turns_first = False
         if self._ground.is_on(airport.strip_of(runway).name):
             angle = abs(final.angle_rad(self._aircraft.state.heading_rad))
@@ -230,14 +230,10 @@ class Departure:
 
     # --- where it is --------------------------------------------------------------------------
 
-    @property
-    def _here(self) -> Place:
-        state = self._aircraft.state
-        return state.latitude_rad, state.longitude_rad
-
     def _hold(self, runway: str) -> Hold:
         """Return the holding position at which the aircraft stands, or raise `Unable`."""
-        return hold_beside(self._site, self._here, runway, self._aircraft.state.heading_rad)
+        state = self._aircraft.state
+        return hold_beside(self._site, state.place, runway, state.heading_rad)
 
     def _require_on_ground(self) -> None:
         """Raise `Unable` unless the aircraft can move to a runway now."""
@@ -253,7 +249,7 @@ class Departure:
 
     def _is_lined_up(self, end: RunwayEnd) -> bool:
         """Return whether the aircraft stands on a runway, along its course."""
-        final, here = FinalApproach(self._site.airport, end), self._here
+        final, here = FinalApproach(self._site.airport, end), self._aircraft.state.place
         angle = abs(final.angle_rad(self._aircraft.state.heading_rad))
         rolled_m = end.displaced_m - final.before_m(here)
         return (
@@ -261,7 +257,3 @@ class Departure:
             and abs(final.right_m(here)) < end.width_m / 2.0
             and 0.0 <= rolled_m < end.length_m
         )
-
-
-def _nothing() -> None:
-    """Do what is done already."""

@@ -21,7 +21,7 @@ from airhilt.commands import (
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, azimuth, distance_m
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.actor import Act, Unable
+from airhilt.world.actors.actor import Act, Unable, do_nothing
 from airhilt.world.actors.circuit import radius_now_m, turn_radius_m
 from airhilt.world.actors.envelope import LOWEST_HEIGHT_FT, Envelope
 from airhilt.world.actors.runway_operations import APPROACHING
@@ -83,7 +83,7 @@ class EnRouteOperations:
 
     def _plan_direct(self, name: str) -> Act:
         place = self._fix(name)
-        if distance_m(self._here, place) < SAME_PLACE_M:
+        if distance_m(self._aircraft.state.place, place) < SAME_PLACE_M:
             raise Unable(f"unable, over {name} already")
         route = self._aircraft.en_route.left_route
         on = next((i for i, p in enumerate(route) if distance_m(p, place) < SAME_PLACE_M), None)
@@ -92,7 +92,7 @@ class EnRouteOperations:
 
     def _plan_orbit(self, side: Side) -> Act:
         self._require_height()
-        frame = LocalFrame(self._here)
+        frame = LocalFrame(self._aircraft.state.place)
         circle = turn(Pose(0.0, 0.0, self._track_rad), _sign(side) * math.tau, self._radius_m())
         curve = Curve(frame, (circle,))
         if self._aircraft.phase in APPROACHING:
@@ -101,7 +101,7 @@ class EnRouteOperations:
 
     def _plan_hold(self, name: str, side: Side) -> Act:
         self._require_height()
-        aircraft, place, here = self._aircraft, self._fix(name), self._here
+        aircraft, place, here = self._aircraft, self._fix(name), self._aircraft.state.place
         slow_m_s, outbound_s = self._holding()
         state, kind = aircraft.state, aircraft.kind
         ratio = state.true_airspeed_m_s / state.calibrated_airspeed_m_s
@@ -139,13 +139,13 @@ class EnRouteOperations:
     def _plan_crossing(self, command: CrossFixCommand) -> Act:
         self._require_no_approach()
         aircraft, place = self._aircraft, self._fix(command.fix)
-        bearing = azimuth(self._here, place) - self._track_rad
+        bearing = azimuth(self._aircraft.state.place, place) - self._track_rad
         route = aircraft.en_route.waypoints_ahead
         if math.cos(bearing) < 0.0 and not any(distance_m(p, place) < SAME_PLACE_M for p in route):
             raise Unable(f"unable, {command.fix} is behind us")
         change_m = command.altitude_ft * FOOT - aircraft.state.altitude_m
         speed_m_s = max(aircraft.state.ground_speed_m_s, 1.0)
-        time_s = PART_OF_RATE * distance_m(self._here, place) / speed_m_s
+        time_s = PART_OF_RATE * distance_m(self._aircraft.state.place, place) / speed_m_s
         rate_m_s = abs(change_m) / max(time_s, 1.0)
         speeds = aircraft.kind.speeds
         greatest_fpm = (
@@ -176,17 +176,12 @@ class EnRouteOperations:
 
     def _plan_usual_speed(self) -> Act:
         if self._aircraft.phase in APPROACHING:
-            return _nothing
+            return do_nothing
         return partial(
             self._aircraft.en_route.hold_speed, self._aircraft.kind.speeds.cruise_kt * KNOT
         )
 
     # --- where it is --------------------------------------------------------------------------
-
-    @property
-    def _here(self) -> Place:
-        state = self._aircraft.state
-        return state.latitude_rad, state.longitude_rad
 
     @property
     def _track_rad(self) -> float:
@@ -220,7 +215,3 @@ class EnRouteOperations:
 
 def _sign(side: Side) -> float:
     return -1.0 if side == "left" else 1.0
-
-
-def _nothing() -> None:
-    """Do what is done already."""

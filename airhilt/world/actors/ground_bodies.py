@@ -158,9 +158,7 @@ class DrivenVehicle:
     @property
     def can_resume(self) -> bool:
         """True if there is something left of its path."""
-        state = self._body.state
-        here = state.latitude_rad, state.longitude_rad
-        return self._end is not None and distance_m(here, self._end) > AT_END_M
+        return self._end is not None and distance_m(self.state.place, self._end) > AT_END_M
 
     def go(self, path: Sequence[Place], speed_m_s: float | None) -> None:
         """Drive along a path from here, and stop at its end."""

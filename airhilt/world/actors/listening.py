@@ -10,14 +10,16 @@ from typing import Literal
 from airhilt.phraseology import TAU_ASR, Call, Instruction, agree, parse_call
 from airhilt.world.actors.orders import Order, orders_of
 
+WORDLESS = Call()
+
 
 @dataclass(frozen=True, slots=True)
 class Understanding:
     """Understanding of a call by one listener."""
 
     kind: Literal["as_said", "otherwise", "unclear", "not_for_me"]
-    call: Call | None = None
-    """Call as it was heard; None where it did not have to be parsed."""
+    call: Call = WORDLESS
+    """Call as it was heard; empty where nothing of it was."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +57,7 @@ class Listener:
         """
         is_the_same = words(heard) == words(said)
         if is_the_same and word_confidences is None:
-            return Understanding("as_said")
+            return Understanding("as_said", self.parse(said))
         taken = self.parse(heard, word_confidences)
         doubt = self._is_not_for(taken, known_by)
         if doubt == "not_for_me" and not is_the_same:

@@ -215,7 +215,7 @@ class RunwayOperations:
         runway, aircraft = final.runway, self._aircraft
         exits = exits_named(self._site, runway, command.exit, command.side)
         on_it = aircraft.phase == "rollout"
-        here_m = -final.before_m(self._here()) if on_it else TOUCHDOWN_M
+        here_m = -final.before_m(self._aircraft.state.place) if on_it else TOUCHDOWN_M
         approach_m_s = aircraft.kind.speeds.approach_kt * KNOT
         speed_m_s = aircraft.state.ground_speed_m_s if on_it else approach_m_s
         braking_m = max(speed_m_s**2 - EXIT_SPEED_M_S**2, 0.0) / (2.0 * FIRM_BRAKING_M_S2)
@@ -244,10 +244,6 @@ class RunwayOperations:
         return max(usual_m, self._aircraft.state.altitude_m + LEAST_CLIMB_M)
 
     # --- steps --------------------------------------------------------------------------------
-
-    def _here(self) -> Place:
-        state = self._aircraft.state
-        return state.latitude_rad, state.longitude_rad
 
     def _path_off(self, command: LandCommand) -> Sequence[Place]:
         """Return the way off the runway after a landing, or raise `Unable`."""
@@ -278,7 +274,7 @@ class RunwayOperations:
 
     def _land_once_on_final(self) -> bool:
         final, state = self._final, self._aircraft.state
-        here = self._here()
+        here = self._aircraft.state.place
         if (
             final is None
             or final.before_m(here) <= 0.0
@@ -300,5 +296,5 @@ class RunwayOperations:
     def _go_around_if_too_high(self, final: FinalApproach) -> None:
         """Break off an approach that has crossed the threshold too high."""
         too_high = self._aircraft.state.height_agl_m > TOO_HIGH_M
-        if too_high and final.before_m(self._here()) < 0.0 and self.go_around():
+        if too_high and final.before_m(self._aircraft.state.place) < 0.0 and self.go_around():
             raise Unable("unable, too high over the threshold: going around")

@@ -19,7 +19,7 @@ from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.messages import Advisory, EmitterCategory, HoldPosition, Recommendation
 from airhilt.scenario.models import Channel, VehicleSpec, WildlifeSpec
-from airhilt.world.actors.actor import Act, Actor, Reaction, Unable
+from airhilt.world.actors.actor import Act, Actor, Reaction, Unable, refusal_by, saying_unable
 from airhilt.world.actors.behind import BehindTraffic
 from airhilt.world.actors.ground_bodies import DrivenVehicle
 from airhilt.world.actors.ground_operations import GroundOperations
@@ -77,13 +77,7 @@ class Driver(_SurfaceActor[Driven]):
 
     def refusal(self, command: Command) -> str | None:
         """Return why the driver cannot carry out a command; None if the driver can."""
-        try:
-            self._plan(command)
-        except Unable as unable:
-            return str(unable)
-        except (ValueError, ScenarioError) as error:
-            return f"unable, {error}"
-        return None
+        return refusal_by(self._plan, command)
 
     def command(self, command: Command) -> None:
         """Carry out a command; raise `Unable` without a way, or if its kind has no such command."""
@@ -92,13 +86,11 @@ class Driver(_SurfaceActor[Driven]):
     def _carry_out(self, command: Command) -> bool:
         """Carry out a command; return whether there was anything to do."""
         was_moving = self.body.phase == "driving"
-        try:
+        with saying_unable():
             act = self._plan(command)
             if act is None:
                 return self.kind.carry_out(self.body, command, self.site)
             act()
-        except (ValueError, ScenarioError) as error:
-            raise Unable(f"unable, {error}") from None
         if isinstance(command, HoldPositionCommand | TaxiCommand | TaxiToCommand):
             self._behind.forget()
         return was_moving or self.body.phase == "driving"
@@ -141,12 +133,10 @@ class Driver(_SurfaceActor[Driven]):
 
     def attend(self) -> None:
         """Take the next step that is due, or raise `Unable`."""
-        try:
+        with saying_unable():
             if (command := self._behind.due()) is not None:
                 self._carry_out(command)
             self._ground.attend()
-        except (ValueError, ScenarioError) as error:
-            raise Unable(f"unable, {error}") from None
 
 
 @dataclass(frozen=True)
@@ -195,5 +185,5 @@ class Animal(_SurfaceActor[Creature]):
             if abs(state.altitude_m - own.altitude_m) > within_m:
                 continue
             if horizontal_distance_m(own, state) < within_m:
-                self.body.startle((state.latitude_rad, state.longitude_rad))
+                self.body.startle(state.place)
                 return

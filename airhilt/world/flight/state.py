@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from airhilt.geodesy.wgs84 import Place
+
 
 class AircraftState(NamedTuple):
     """The true state of an aircraft at one instant.
@@ -35,6 +37,11 @@ class AircraftState(NamedTuple):
     ecef_x_m: float
     ecef_y_m: float
     ecef_z_m: float
+
+    @property
+    def place(self) -> Place:
+        """Latitude and longitude."""
+        return self.latitude_rad, self.longitude_rad
 
     @property
     def ground_speed_m_s(self) -> float:

@@ -48,7 +48,7 @@ STATIONS = Stations({}, ScenarioSite.of(SCENARIO), SCENARIO)
 
 def displays(*shown: tuple[str, float, float]) -> Displays:
     """Return displays with targets: callsigns, latitudes and tracks in degrees."""
-    found = Displays()
+    found = Displays(Director(Virtual()))
     for at, (callsign, latitude_deg, track_deg) in enumerate(shown):
         found.take(
             AdsbReport(
@@ -79,9 +79,9 @@ def test_the_words_of_a_measure_mean_the_measure(
     own = [(callsign, 39.0, float(track_deg))] if is_shown else []
     screen = displays(*own, (other, latitude_deg, 90.0))
     wording = Wording(screen, Strips(STATIONS, Director(Virtual())), style, variation_deg)
-    measure = Measure(callsign, action, screen.target(other, 0), is_alert=is_alert)
-    instructions = wording.instructions(measure, 0)
-    text = wording.text(measure, instructions, 0)
+    measure = Measure(callsign, action, screen.target(other), is_alert=is_alert)
+    instructions = wording.instructions(measure)
+    text = wording.text(measure, instructions)
     read = parse_call(text, ON_FREQUENCY)
     assert read.callsign == callsign, text
     assert calm(read.instructions) == calm(instructions), text

@@ -67,7 +67,7 @@ class Plane:
         heading, speed = math.radians(self.heading_deg), self.speed_kt * KNOT
 
         class Now:
-            latitude_rad, longitude_rad = self.place
+            latitude_rad, longitude_rad = place = self.place
             height_agl_m = self.height_m
             altitude_m = self.height_m
             track_rad = heading_rad = heading

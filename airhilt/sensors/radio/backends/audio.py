@@ -8,7 +8,7 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, to_pcm
 from airhilt.messages import Transcript
 from airhilt.scenario.models import Radio
 from airhilt.sensors.radio.backends.base import SoundRequest
-from airhilt.sensors.radio.channel import WHISTLES_HZ, Channel, Other
+from airhilt.sensors.radio.channel import WHISTLES_HZ, Other, VhfChannel
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.reception import Receptions
 from airhilt.sim.streams import stream
@@ -30,7 +30,7 @@ class AudioRadio:
 
     has_sound = True
 
-    def __init__(self, voices: TtsEngine, channel: Channel, seed: int, radio: Radio) -> None:
+    def __init__(self, voices: TtsEngine, channel: VhfChannel, seed: int, radio: Radio) -> None:
         self._voices = voices
         self._channel = channel
         self._seed = seed

@@ -11,7 +11,7 @@ from airhilt.scenario.radio_profiles import PROFILES, is_learned
 from airhilt.sensors.radio.backends.base import RadioBackend, TextRadio
 
 if TYPE_CHECKING:
-    from airhilt.sensors.radio.channel import Channel
+    from airhilt.sensors.radio.channel import VhfChannel
 
 DEFAULT_PROFILE = "vhf"
 
@@ -31,7 +31,7 @@ def select_backend(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
     return AudioRadio(tts_engine(tts), channel, seed, radio)
 
 
-def select_channel(profile: str) -> Channel:
+def select_channel(profile: str) -> VhfChannel:
     """Return the channel of a named profile, or of a file with a learned one."""
     if is_learned(profile):
         from airhilt.sensors.radio.learned_channel import LearnedChannel

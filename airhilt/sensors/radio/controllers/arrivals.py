@@ -8,10 +8,11 @@ from functools import partial
 from airhilt.phraseology import Instruction
 from airhilt.phraseology.say import speak_instruction
 from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.controllers.calls import ControllerCalls
 from airhilt.sensors.radio.controllers.displays import Displays
 from airhilt.sensors.radio.controllers.positions import Position
 from airhilt.sensors.radio.controllers.strips import LANDING, Contact, Strips
-from airhilt.sensors.radio.radio_call import RadioCall, Speakers
+from airhilt.sensors.radio.radio_call import HeardCall, RadioCall
 from airhilt.units import SECOND_NS
 
 TAKEN_IN_AFTER_S = 15.0
@@ -40,29 +41,29 @@ class Arrivals:
     """
 
     def __init__(
-        self, context: RadioContext, speakers: Speakers, displays: Displays, strips: Strips
+        self, context: RadioContext, calls: ControllerCalls, displays: Displays, strips: Strips
     ) -> None:
         self._context = context
         self._director = context.director
-        self._speakers = speakers
+        self._calls = calls
         self._displays = displays
         self._strips = strips
         self._again: dict[str, _Arrival] = {}
         """Arrivals that are to land, by callsign."""
-        self._calls = 0
+        self._count = 0
 
-    def heard(self, call: RadioCall, position: Position, text: str) -> None:
+    def heard(self, heard: HeardCall, position: Position) -> None:
         """Take in what a crew says, such as that it goes around."""
-        callsign = call.speaker
-        listener = self._context.stations.listener(call.frequency_khz)
-        actions = {each.action for each in listener.parse(text).instructions}
-        target = self._displays.target(callsign, self._director.now_ns)
+        callsign, frequency_khz = heard.call.speaker, heard.call.frequency_khz
+        listener = self._context.stations.listener(frequency_khz)
+        actions = {each.action for each in listener.parse(heard.text).instructions}
+        target = self._displays.target(callsign)
         if "go_around" not in actions or target is None or target.on_ground:
             return
         runway = self._displays.final_of(target) or self._strips.of(callsign).runway
         if runway is None or callsign in self._again:
             return
-        contact = Contact(position.unit, call.frequency_khz)
+        contact = Contact(position.unit, frequency_khz)
         arrival = _Arrival(callsign, runway, contact, self._director.now_ns)
         self._again[callsign] = arrival
         self._director.after(TAKEN_IN_AFTER_S, partial(self._take_in, arrival, position))
@@ -82,12 +83,11 @@ class Arrivals:
         """Clear an arrival to land, once it is on final approach and the runway is free."""
         if self._is_over(arrival, position):
             return
-        now_ns = self._director.now_ns
-        target = self._displays.target(arrival.callsign, now_ns)
+        target = self._displays.target(arrival.callsign)
         is_final = target is not None and self._displays.final_of(target) == arrival.runway
         is_free = not any(
             self._displays.are_one_runway(self._displays.runway_of(other), arrival.runway)
-            for other in self._displays.targets(now_ns)
+            for other in self._displays.targets()
         )
         if is_final and is_free and position.speaking is None:
             del self._again[arrival.callsign]
@@ -109,11 +109,10 @@ class Arrivals:
         return is_over
 
     def _say(self, arrival: _Arrival, position: Position, instruction: Instruction) -> None:
-        self._calls += 1
+        self._count += 1
         unit, frequency_khz = arrival.contact
         style = self._context.radio.phraseology
         text = speak_instruction(arrival.callsign, instruction, style)
-        name = f"arrival.{arrival.callsign}.{self._calls}"
+        name = f"arrival.{arrival.callsign}.{self._count}"
         call = RadioCall(name, frequency_khz, unit, arrival.callsign, text)
-        position.speaking = call
-        self._speakers.say(call)
+        self._calls.say(position, call)

@@ -28,7 +28,8 @@ from airhilt.sensors.radio.controllers.displays import Displays
 from airhilt.sensors.radio.controllers.measures import Judgement, Measure, Repetition
 from airhilt.sensors.radio.controllers.positions import Alert, Position
 from airhilt.sensors.radio.controllers.strips import Contact, Strips
-from airhilt.sensors.radio.radio_call import RadioCall, Speakers
+from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
+from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, controller_reactions
@@ -52,19 +53,24 @@ class Controllers:
     """
 
     def __init__(
-        self, context: RadioContext, speakers: Speakers, confirmations: Confirmations
+        self,
+        context: RadioContext,
+        speakers: Speakers,
+        policy: ReadbackPolicy,
+        confirmations: Confirmations,
     ) -> None:
         self._context = context
         self._director = context.director
         self._stations = context.stations
         self._seats = context.seats
         self._speakers = speakers
+        self._policy = policy
         self._confirmations = confirmations
-        self._displays = Displays()
+        self._displays = Displays(context.director)
         self._strips = Strips(context.stations, context.director)
         self._judgement = Judgement(self._displays, self._strips, speakers.said)
         self._calls = ControllerCalls(context, speakers, self._displays, self._strips)
-        self._arrivals = Arrivals(context, speakers, self._displays, self._strips)
+        self._arrivals = Arrivals(context, self._calls, self._displays, self._strips)
         declared = context.scenario.controllers
         self._positions = {
             unit: Position(
@@ -102,15 +108,16 @@ class Controllers:
             position.speaking = None
             self._speak(position)
 
-    def heard(self, call: RadioCall, unit: str, text: str) -> None:
+    def heard(self, heard: HeardCall) -> None:
         """Take in a call of an actor as a unit has heard it."""
+        call = heard.call
         if not self._stations.is_actor(call.speaker):
             return
-        is_wrong, told = self._strips.heard(call, unit, text), call.in_reply_to
-        position = self._positions.get(unit)
+        is_wrong, told = self._strips.heard(heard), call.in_reply_to
+        position = self._positions.get(heard.listener)
         if position is None:
             return
-        self._arrivals.heard(call, position, text)
+        self._arrivals.heard(heard, position)
         if told is None or not is_wrong:
             return
         corrections = position.corrections.get(told.id, MOST_CORRECTIONS)
@@ -118,6 +125,18 @@ class Controllers:
             repetition = Repetition(call.speaker, told, is_correction=True)
             position.misread.append(repetition)
             self._speak(position)
+
+    def check(self, heard: HeardCall) -> None:
+        """Correct a readback that a unit has taken, where the units of the scenario check all."""
+        if not self._context.radio.controller_checks_readbacks:
+            return
+        if heard.listener != heard.call.addressed:
+            return
+        correction = self._calls.correction(heard)
+        if correction is not None and correction is heard.call.in_reply_to:
+            self._policy.call_again(correction)
+        elif correction is not None:
+            self._speakers.say_later(correction)
 
     def contact(self, callsign: str) -> Contact | None:
         """Return the unit that works an actor, and on which frequency; None if there is none."""
@@ -178,10 +197,7 @@ class Controllers:
         """Return whether a controller acts on an advisory that it has seen."""
         if not position.reactions.respond("assistant", advisory.id).follows:
             return False
-        now_ns = self._director.now_ns
-        if self._ignores(position, advisory.id) and self._judgement.is_contradicted(
-            advisory, now_ns
-        ):
+        if self._ignores(position, advisory.id) and self._judgement.is_contradicted(advisory):
             self._silent(position, advisory, "the displays contradict it")
             return False
         return True
@@ -218,8 +234,7 @@ class Controllers:
             if alert.advisory.id in position.attended:
                 call = next(self._calls_about(position, alert.advisory), None)
             if call is not None:
-                position.speaking = call
-                self._speakers.say(call)
+                self._calls.say(position, call)
                 return
 
     def _correct(self, position: Position, misread: Repetition) -> None:
@@ -229,8 +244,7 @@ class Controllers:
         call = self._calls.call(self._name(position), misread, contact)
         position.corrections[call.id] = times
         self._event("controller_reacts", position.unit, f"{misread.callsign}: corrects a readback")
-        position.speaking = call
-        self._speakers.say(call)
+        self._calls.say(position, call)
 
     def _name(self, position: Position) -> str:
         position.calls += 1
@@ -244,7 +258,7 @@ class Controllers:
                 if call is not None:
                     yield call
             return
-        for measure in self._judgement.measures(advisory, self._director.now_ns):
+        for measure in self._judgement.measures(advisory):
             call = self._call_of(position, advisory, measure)
             if call is not None:
                 yield call

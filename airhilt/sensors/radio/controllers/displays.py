@@ -9,6 +9,7 @@ from shapely import Point, Polygon
 
 from airhilt.geodesy.wgs84 import displaced, offset_m
 from airhilt.messages import AdsbReport, Briefing, Message, RunwayBriefing, SurfaceTrack
+from airhilt.sim import Director
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS, wrap_angle
 
 STALE_S = 15.0
@@ -68,7 +69,8 @@ class Target:
 class Displays:
     """Displays of all units. They know what is published, never what really is."""
 
-    def __init__(self) -> None:
+    def __init__(self, director: Director) -> None:
+        self._director = director
         self._reports: dict[str, AdsbReport | SurfaceTrack] = {}
         """Last report of each callsign; targets are made of it when somebody looks."""
         self._runways: dict[str, RunwayBriefing] = {}
@@ -124,16 +126,16 @@ class Displays:
             _time_ns(report),
         )
 
-    def target(self, callsign: str, now_ns: int) -> Target | None:
+    def target(self, callsign: str) -> Target | None:
         """Return the target of a callsign as it is now, None if it is on no display."""
-        report = self._reports.get(callsign)
+        report, now_ns = self._reports.get(callsign), self._director.now_ns
         if report is None or now_ns - _time_ns(report) > STALE_S * SECOND_NS:
             return None
         return self._target_of(callsign, report).at(now_ns)
 
-    def targets(self, now_ns: int) -> list[Target]:
+    def targets(self) -> list[Target]:
         """Return all targets on the displays, as they are now."""
-        found = (self.target(callsign, now_ns) for callsign in self._reports)
+        found = (self.target(callsign) for callsign in self._reports)
         return [target for target in found if target is not None]
 
     def ceiling_ft(self, callsign: str) -> float:

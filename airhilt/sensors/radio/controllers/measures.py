@@ -84,36 +84,31 @@ class Judgement:
         """Forget what was decided about an advisory that is over."""
         self._levels.pop(advisory_id, None)
 
-    def measures(self, advisory: Advisory, now_ns: int) -> tuple[Measure | Repetition, ...]:
+    def measures(self, advisory: Advisory) -> tuple[Measure | Repetition, ...]:
         """Return what is to be done about an advisory, the most important first."""
-        actions = dict(self._recommended(advisory, now_ns)) or dict(self._own(advisory, now_ns))
+        actions = dict(self._recommended(advisory)) or dict(self._own(advisory))
         repetitions = {each.callsign: each for each in self._repetitions(advisory)}
         for callsign, action in list(actions.items()):
             if callsign in repetitions and isinstance(action, MaintainLevel):
                 del actions[callsign]
         return (
             *(each for each in repetitions.values() if each.callsign not in actions),
-            *(
-                self._measure(advisory, callsign, action, now_ns)
-                for callsign, action in actions.items()
-            ),
+            *(self._measure(advisory, *each) for each in actions.items()),
         )
 
-    def _measure(
-        self, advisory: Advisory, callsign: str, action: Recommendation, now_ns: int
-    ) -> Measure:
-        own = self._displays.target(callsign, now_ns)
+    def _measure(self, advisory: Advisory, callsign: str, action: Recommendation) -> Measure:
+        own = self._displays.target(callsign)
         others = [name for name in advisory.traffic if name != callsign]
-        traffic = self._displays.target(others[0], now_ns) if others else None
+        traffic = self._displays.target(others[0]) if others else None
         is_alert = own is None or traffic is None or self._come_near(own, traffic, ALERT_WITHIN_S)
         return Measure(callsign, action, traffic, is_alert=is_alert)
 
-    def is_contradicted(self, advisory: Advisory, now_ns: int) -> bool:
+    def is_contradicted(self, advisory: Advisory) -> bool:
         """Return whether the displays show all of the traffic, and no two of it coming near.
 
         What was read back is no matter of displays.
         """
-        targets = [self._displays.target(callsign, now_ns) for callsign in advisory.traffic]
+        targets = [self._displays.target(callsign) for callsign in advisory.traffic]
         shown = [target for target in targets if target is not None]
         if advisory.kind not in ("loss_of_separation", "runway_conflict"):
             return False
@@ -133,7 +128,7 @@ class Judgement:
         loss_s = time_to_loss_s(motion, own, their, minima)
         return loss_s is not None and loss_s <= within_s
 
-    def _recommended(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+    def _recommended(self, advisory: Advisory) -> Iterator[tuple[str, Recommendation]]:
         """Yield what an advisory recommends, as far as it makes sense by the displays.
 
         Who is on the runway already is to leave it, not to stop there, once the user of the runway
@@ -143,7 +138,7 @@ class Judgement:
             isinstance(each, GoAround | CancelTakeoff) for each in advisory.recommendations.values()
         )
         for callsign, action in advisory.recommendations.items():
-            target = self._displays.target(callsign, now_ns)
+            target = self._displays.target(callsign)
             if target is not None and isinstance(action, GoAround):
                 is_done = target.vertical_m_s > CLIMBING_M_S
             else:
@@ -169,18 +164,18 @@ class Judgement:
 
     # --- judged by the controller itself ----------------------------------------------------
 
-    def _own(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+    def _own(self, advisory: Advisory) -> Iterator[tuple[str, Recommendation]]:
         match advisory.kind:
             case "runway_conflict":
-                yield from self._on_runway(advisory, now_ns)
+                yield from self._on_runway(advisory)
             case "loss_of_separation":
-                levels = self._levels.get(advisory.id) or dict(self._in_flight(advisory, now_ns))
+                levels = self._levels.get(advisory.id) or dict(self._in_flight(advisory))
                 self._levels[advisory.id] = levels
                 yield from levels.items()
             case _:
                 return
 
-    def _on_runway(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+    def _on_runway(self, advisory: Advisory) -> Iterator[tuple[str, Recommendation]]:
         """Yield the actions of those who use a runway, or are about to.
 
         Who departs is stopped. Who taxies or drives towards the runway holds, and so does who was
@@ -191,7 +186,7 @@ class Judgement:
         are_short = True
         arrivals: list[tuple[str, str]] = []
         for callsign in advisory.traffic:
-            target = self._displays.target(callsign, now_ns)
+            target = self._displays.target(callsign)
             strip = self._strips.of(callsign)
             runway = strip.runway or advisory.evidence.runway or ""
             final = None if target is None else self._displays.final_of(target)
@@ -213,9 +208,9 @@ class Judgement:
             return use in ENTERING
         return target.on_ground and self._displays.runway_of(target) is None
 
-    def _in_flight(self, advisory: Advisory, now_ns: int) -> Iterator[tuple[str, Recommendation]]:
+    def _in_flight(self, advisory: Advisory) -> Iterator[tuple[str, Recommendation]]:
         """Yield a climb of the higher of two and a descent of the lower, to free levels."""
-        targets = [self._displays.target(callsign, now_ns) for callsign in advisory.traffic]
+        targets = [self._displays.target(callsign) for callsign in advisory.traffic]
         shown = [target for target in targets if target is not None and not target.on_ground]
         if len(shown) < 2:
             return

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from airhilt.phraseology import Action, agree
-from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.radio_call import HeardCall, RadioCall
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director
 from airhilt.world.actors.listening import words
@@ -78,8 +78,9 @@ class Strips:
             if each.action in RUNWAY_USES and not each.is_conditional:
                 strip.runway_use, strip.runway = each.action, each.runway or strip.runway
 
-    def heard(self, call: RadioCall, unit: str, text: str) -> bool:
+    def heard(self, heard: HeardCall) -> bool:
         """Note a call of an actor as a unit has heard it; return whether it is a wrong readback."""
+        call, unit, text = heard.call, heard.listener, heard.text
         strip = self.of(call.speaker)
         strip.contact = Contact(unit, call.frequency_khz)
         said = " ".join(words(text))

@@ -44,9 +44,9 @@ class Wording:
         self._style = style
         self._variation_deg = variation_deg
 
-    def instructions(self, measure: Measure, now_ns: int) -> tuple[Instruction, ...]:
+    def instructions(self, measure: Measure) -> tuple[Instruction, ...]:
         """Return what a measure tells its crew or driver to do."""
-        target = self._displays.target(measure.callsign, now_ns)
+        target = self._displays.target(measure.callsign)
         match measure.action:
             case GoAround():
                 return (Instruction("go_around"),)
@@ -67,9 +67,9 @@ class Wording:
             case _:
                 return ()
 
-    def text(self, measure: Measure, instructions: tuple[Instruction, ...], now_ns: int) -> str:
+    def text(self, measure: Measure, instructions: tuple[Instruction, ...]) -> str:
         """Return the words of a measure."""
-        target, traffic = self._displays.target(measure.callsign, now_ns), measure.traffic
+        target, traffic = self._displays.target(measure.callsign), measure.traffic
         if _is_for_flight(measure.action):
             where = ""
             if target is not None and traffic is not None:
