@@ -6,12 +6,15 @@ controller gives because of an advisory, is drawn from the response model.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
 from airhilt.commands import Command, ContactCommand, GoAroundCommand
 from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
+from airhilt.phraseology.call import OTHERWISE
 from airhilt.scenario.models import ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
@@ -89,7 +92,7 @@ class Compliance:
         unable = []
         refused: dict[str, str | None] = {}
         """Why the first order about each subject cannot be done; None if it can."""
-        for order in orders:
+        for order in self._possible(actor, orders):
             why = order.unable or order.question or None
             if why is None and order.command is not None:
                 subject = subject_of(order.command)
@@ -108,11 +111,24 @@ class Compliance:
             ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S)
             for command in commands
         )
-        if refused.get("surface") is not None:
+        if refused.get("surface") or refused.get("approach"):
             accepted = [each for each in accepted if each.instruction.action not in ON_THE_WAY]
         read_back = tuple(each.instruction for each in accepted)
         decision = Decision(scripted, read_back, tuple(dict.fromkeys(unable)))
         return self._told(actor, decision)
+
+    def _possible(self, actor: str, orders: Sequence[Order]) -> list[Order]:
+        """Return orders without the second of two alternatives, or without a first that fails."""
+        possible: list[Order] = []
+        for order in orders:
+            if possible and order.instruction.condition == OTHERWISE:
+                first = possible[-1].command
+                if first is None or self._refusal(actor, first) is None:
+                    continue
+                possible.pop()
+                order = replace(order, instruction=replace(order.instruction, condition=None))
+            possible.append(order)
+        return possible
 
     def _refusal(self, actor: str, command: Command) -> str | None:
         """Return why an actor cannot carry out a command now; a person decides without us."""
