@@ -168,6 +168,12 @@ class LandCommand(_Command):
     )
     vacate: Flag = Field(default=True, description="false: the aircraft stops on the runway")
     then: Literal["full_stop", "touch_and_go", "stop_and_go", "low_approach"] = "full_stop"
+    hold_short: RunwayIdent | None = Field(
+        default=None, description="runway that crosses this one, to stop before"
+    )
+    not_below_ft: AltitudeFt | None = Field(
+        default=None, description="of a low approach; null: about 100 ft above the runway"
+    )
 
 
 class GoAroundCommand(_Command):
@@ -198,7 +204,9 @@ class JoinCommand(_Command):
     action: Literal["join"]
     leg: CircuitLeg
     runway: RunwayIdent
-    side: Side = "left"
+    side: Side | None = Field(
+        default=None, description="null: as the circuit is flown already, or left"
+    )
 
 
 class ExtendCommand(_Command):
@@ -298,6 +306,14 @@ class VacateCommand(_Command):
     side: Side | None = None
 
 
+class TurnAtCommand(_Command):
+    """Turn onto a taxiway: off the runway, or on the way over the taxiways."""
+
+    action: Literal["turn_at"]
+    taxiway: TaxiwayName
+    side: Side
+
+
 class BacktrackCommand(_Command):
     """Enter the runway, taxi along it against its direction of use, and line up."""
 
@@ -310,6 +326,9 @@ class FollowCommand(_Command):
 
     action: Literal["follow"]
     whom: Name = Field(description="its callsign, or words for its type")
+    hold_short: tuple[TaxiwayName, ...] = Field(
+        default=(), max_length=10, description="runways and taxiways on the ground to stop before"
+    )
 
 
 class GiveWayCommand(_Command):
@@ -413,6 +432,7 @@ AircraftCommand = (
     | CrossCommand
     | EnterCommand
     | VacateCommand
+    | TurnAtCommand
     | BacktrackCommand
     | FollowCommand
     | GiveWayCommand

@@ -57,6 +57,10 @@ BESIDES: frozenset[Action] = frozenset(
 TAU_ASR = 0.8
 """Confidence below which what was heard is in doubt (guard of arXiv 2511.18718)."""
 
+OTHERWISE = "or"
+"""Condition of what is done only if the clearance right before it cannot be (ICAO Doc 4444,
+12.3.4.11: "take off immediately or vacate runway")."""
+
 Sense = Literal["climb", "descend", "maintain"]
 Turn = Literal["left", "right"]
 Bound = Literal["or_more", "or_less"]

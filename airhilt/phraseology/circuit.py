@@ -19,6 +19,8 @@ _RUNWAY_BEHIND = re.compile(
 )
 
 _ON_RUNWAY = frozenset({"join", "side_step", "return_to_field"})
+_NOW = re.compile(r"(?:turn|start|begin)(?!\S)|make (?:your )?base")
+"""First words to fly a leg from here on, rather than to enter it where it usually begins."""
 _CLEARED = re.compile(r" (?:cleared|clear|line)(?!\S)")
 
 
@@ -39,6 +41,7 @@ def on_leg(segment: Segment, action: Action) -> Read | None:
         designator(*runway.group(2, 3)) if runway else None,
         parts.get("leg"),
         turn=cast("Turn | None", parts.get("turn") or parts.get("turn_behind")),
+        immediate=action == "join" and _NOW.match(segment.found[0]) is not None,
         confidence=sure,
     )
     return Read(read, segment.start, end)
@@ -58,10 +61,16 @@ FORMS: Listed = (
     ("make making", "short_approach", r"mak(?:e|ing)(?: a)? short approach", alone),
     ("short", "short_approach", r"short approach approved", alone),
     ("make making join joining enter entering", "join",
-     rf"(?:mak(?:e|ing)|join(?:ing)?|enter(?:ing)?)(?: (?:the|a))? {_SIDE}"
+     rf"(?:mak(?:e|ing)|join(?:ing)?|enter(?:ing)?)(?: (?:the|a|your))? {_SIDE}"
      rf"(?P<leg>{_LEG}|straight in)(?: (?:leg|approach))?(?: (?P<turn_behind>left|right) hand)?",
      on_leg),
-    ("turn", "join", rf"turn (?:now )?{_SIDE}(?P<leg>{_LEG})(?: leg)?(?: now)?", on_leg),
+    ("turn", "join",
+     rf"turn (?:now )?(?:(?:on )?to )?(?:the |a |your )?{_SIDE}(?P<leg>{_LEG})(?: leg)?(?: now)?",
+     on_leg),
+    ("start begin", "join",
+     rf"(?:start|begin) (?:the |a |your )?{_SIDE}(?:turn (?:on )?to )?(?P<leg>base|final)"
+     r"(?: turn| leg)?(?: now)?",
+     on_leg),
     ("side sidestep", "side_step", r"side ?step(?:ping)?", on_leg),
     ("return", "return_to_field",
      r"return (?:to (?:the )?(?:field|airport|aerodrome|airfield|land)|for landing)", on_leg),

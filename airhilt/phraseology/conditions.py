@@ -7,7 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from airhilt.phraseology.call import CLEARANCES, REPORTS, STOPS, Action, Instruction
+from airhilt.phraseology.call import (
+    CLEARANCES,
+    OTHERWISE,
+    REPORTS,
+    STOPS,
+    Action,
+    Instruction,
+)
 from airhilt.phraseology.clauses import Found, Span
 from airhilt.phraseology.forms import BARE_RUNWAY, DEPARTED, LONG_NAME, NO_VALUE
 
@@ -220,7 +227,9 @@ def put_in_order(clauses: list[Clause], texts: list[str], text: str) -> None:
             _share_runway(each, clauses, text)
         if told.condition is not None:
             continue
-        if told.action in IN_FLIGHT and is_takeoff:
+        if before and _is_alternative(told, before, text[before.end : each.start]):
+            each.told = replace(told, condition=OTHERWISE)
+        elif told.action in IN_FLIGHT and is_takeoff:
             each.wait(AIRBORNE)
         elif is_filed and told.action in _AFTER_DEPARTURE and not each.is_expected:
             each.wait(DEPARTED)
@@ -228,6 +237,12 @@ def put_in_order(clauses: list[Clause], texts: list[str], text: str) -> None:
             each.told = replace(told, condition=before.told.condition)
         elif _waits(told, before, texts, each.found.first):
             each.wait("then")
+
+
+def _is_alternative(told: Instruction, before: Clause, between: str) -> bool:
+    """Return whether an action is for who cannot do what was cleared right before it."""
+    is_other = told.action in STOPS or told.action == "vacate"
+    return is_other and before.told.action in CLEARANCES and between.strip() == "or"
 
 
 def _is_route(before: list[Clause]) -> bool:

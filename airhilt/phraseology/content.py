@@ -8,7 +8,16 @@ from typing import NamedTuple
 
 from airhilt.phraseology.bare_routes import bare_route
 from airhilt.phraseology.bare_values import bare_values, without_courtesies
-from airhilt.phraseology.call import CLEARANCES, REPORTS, STOPS, Action, Asks, Instruction, Question
+from airhilt.phraseology.call import (
+    CLEARANCES,
+    OTHERWISE,
+    REPORTS,
+    STOPS,
+    Action,
+    Asks,
+    Instruction,
+    Question,
+)
 from airhilt.phraseology.clauses import Line, Span
 from airhilt.phraseology.conditions import (
     YIELDED,
@@ -122,7 +131,7 @@ def _is_doubtful(told: Instruction, text: str, clause: Clause) -> bool:
     if told.action in CLEARANCES and before[-1] in ("we", "i"):
         return True
     return (
-        before[-1] == "or"
+        (before[-1] == "or" and told.condition != OTHERWISE)
         or is_unknown(before[-1])
         or (before[-1] == "and" and is_unknown(before[0]))
     )

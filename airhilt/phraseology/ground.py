@@ -277,6 +277,9 @@ FORMS: Listed = (
     ("turn turning", "vacate",
      r"turn(?:ing)? (?P<turn>left|right)(?: at)?(?: the)? next (?:taxiway|intersection|exit)",
      vacate),
+    ("turn turning left right", "vacate",
+     r"(?:turn(?:ing)? )?(?P<turn>left|right)(?: turn)?(?: (?:off )?(?:at|on|onto))?(?: the)?"
+     r"(?: (?:first|next))? high speed(?: (?:exit|taxiway|turn ?off))?", vacate),
     ("left right", "vacate", r"(?P<turn>left|right)(?= when able)", vacate),
     ("off", "vacate",
      rf"(?<!turn )(?<!turning )(?<!level )(?<!take )(?<!\S)off(?= (?:at|on) {LETTER})", vacate),

@@ -189,6 +189,8 @@ FORMS: Listed = (
     ("clear cleared", "cleared_for_takeoff",
      rf"{_CLEAR} (?:(?:for|to) )?{_INSIDE}(?:for )?(?:an |the )?(?:immediate )?takeoff",
      on_runway),
+    ("takeoff", "cleared_for_takeoff",
+     r"takeoff (?:immediately|now)(?= or (?:vacate|exit|hold)(?!\S))", on_runway),
     ("clear cleared", "cleared_for_takeoff", rf"{_CLEAR} to go(?! (?:around|direct|to))",
      on_runway),
     ("clear cleared", "cleared_to_land", rf"{_CLEAR} {_INSIDE}(?:(?:to )?land|for landing)",
@@ -206,7 +208,8 @@ FORMS: Listed = (
      r"(?<!runway )[1-9] (?:more )?(?:aircraft )?(?:to|for)"
      r" (?:vacate|exit|depart|departure|land|go|roll|cross)", nothing),
     ("hold holding", "hold_short",
-     rf"hold(?:ing)? at(?= (?:taxiway |intersection |holding (?:point|decimal) )?{LETTER})",
+     rf"hold(?:ing)? at(?! {LETTER} {LETTER} {LETTER})"
+     rf"(?= (?:taxiway |intersection |holding (?:point|decimal) )?{LETTER})",
      hold_short),
     ("continue remain", "hold_position", r"(?:continue|remain) holding", alone),
     ("holding", "hold_position", r"holding(?= \||$)", alone),

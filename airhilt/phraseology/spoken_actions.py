@@ -168,7 +168,8 @@ def _altitude(of: _Slots) -> str:
     sense = of.told.sense
     level = join(of.at_or, of.level)
     if sense in (None, "maintain"):
-        return join("maintain", level, of.now())
+        is_limit = sense is None and of.told.bound is not None
+        return join("" if is_limit else "maintain", level, of.now())
     verb = "climb" if sense == "climb" else "descend"
     if of.told.immediate:
         verb = "expedite climb" if sense == "climb" else "expedite descent"
@@ -222,6 +223,8 @@ def _orbit(of: _Slots) -> str:
 def _join_leg(of: _Slots) -> str:
     leg = of.told.position or "downwind"
     verb = of.of("make" if leg == "straight in" else "enter", "join")
+    if of.told.immediate:
+        verb = "turn"
     return join(verb, of.turn, leg, of.runway)
 
 

@@ -186,6 +186,9 @@ class Seen:
     def asks(self) -> bool:
         return "say" in self.words
 
+    def refuses_or_asks(self) -> bool:
+        return self.refuses() or self.asks()
+
     def says(self, words: list[str]) -> bool:
         return bool(self.answers) and all(word.lower() in self.words for word in words)
 
@@ -235,6 +238,7 @@ class Seen:
         return at is None or self.is_near_taxiway(at)
 
     def is_near_taxiway(self, name: str) -> bool:
+        """Return whether it was on a taxiway, off the runways."""
         from shapely import LineString
 
         lines = [
@@ -242,7 +246,9 @@ class Seen:
             for edge in LAYOUT.airport.taxiways.edges
             if edge.taxiway == name
         ]
-        return any(line.distance(point(s)) < 25.0 for line in lines for s in self.states[-200:])
+        runways = [strip.ends[0].ident for strip in LAYOUT.strips.values()]
+        off = [s for s in self.states if not any(self.on_runway(each, s) for each in runways)]
+        return any(line.distance(point(s)) < 25.0 for line in lines for s in off if s["on_ground"])
 
     def taxis_to(self, place: str) -> bool:
         nodes = [name for name in LAYOUT.taxiways.nodes if place.lower() in name.lower()]

@@ -6,6 +6,7 @@ controller gives because of an advisory, is drawn from the response model.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -13,7 +14,7 @@ from typing import NamedTuple
 from airhilt.commands import Command, ContactCommand, GoAroundCommand
 from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
-from airhilt.phraseology.call import STOPS, Action, Question
+from airhilt.phraseology.call import OTHERWISE, STOPS, Action, Question
 from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
@@ -92,7 +93,7 @@ class Compliance:
         unable = []
         refused: dict[tuple[str, bool], str | None] = {}
         """Why the first order about each subject, now or later, cannot be done; None if it can."""
-        for order in orders:
+        for order in self._possible(actor, orders):
             why = order.unable or order.question or None
             if why is None and order.command is not None:
                 subject = subject_of(order.command), order.when is None
@@ -111,12 +112,25 @@ class Compliance:
             ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S, when=when)
             for command, when in commands.items()
         )
-        if refused.get(("surface", True)) is not None:
+        if refused.get(("surface", True)) or refused.get(("approach", True)):
             accepted = [each for each in accepted if each.instruction.action not in ON_THE_WAY]
         read_back: list[Instruction | str] = [each.instruction for each in accepted]
         read_back += self._answered(taken, actor)
         decision = Decision(scripted, tuple(read_back), tuple(dict.fromkeys(unable)))
         return self._told(actor, decision)
+
+    def _possible(self, actor: str, orders: Sequence[Order]) -> list[Order]:
+        """Return orders without the second of two alternatives, or without a first that fails."""
+        possible: list[Order] = []
+        for order in orders:
+            if possible and order.instruction.condition == OTHERWISE:
+                first = possible[-1].command
+                if first is None or self._refusal(actor, first) is None:
+                    continue
+                possible.pop()
+                order = replace(order, instruction=replace(order.instruction, condition=None))
+            possible.append(order)
+        return possible
 
     def _answered(self, taken: Call, actor: str) -> tuple[str, ...]:
         """Return the answers of an actor to the questions of a call; it does nothing of them."""

@@ -16,6 +16,7 @@ from airhilt.commands import (
     LandCommand,
     ReturnToFieldCommand,
     ShortApproachCommand,
+    Side,
     SideStepCommand,
 )
 from airhilt.geodesy.wgs84 import Place, distance_m
@@ -303,13 +304,25 @@ class Approaches:
         final = self._final(end)
         if distance_m(self._here, end.threshold) > NEAR_M:
             return partial(self._go_there, final)
-        circuit = Circuit(final, kind, command.side, state)
+        circuit = self._circuit(final, command.side)
+        if command.leg == "base" and circuit.is_on("downwind", self._here, state.track_rad):
+            circuit = Circuit(final, kind, circuit.side, state, STABLE_CIRCLING_FT)
         poses = circuit.poses(command.leg, self._here, state.track_rad)
         pieces = self._through(*poses.values())
         curve = to_threshold(final, pieces, poses["final"])
         if not self._descends_well(end, curve):
             raise Unable(f"unable, too high for the circuit of runway {end.ident}")
         return self._flown(end, curve, circuit, poses)
+
+    def _circuit(self, final: FinalApproach, side: Side | None) -> Circuit:
+        """Return the circuit to a side, or to that on which the aircraft flies already, or left."""
+        state, kind, flown = self._aircraft.state, self._aircraft.kind, self._joined
+        if side is None and flown is not None and flown.circuit.final.runway == final.runway:
+            side = flown.circuit.side
+        left, right = Circuit(final, kind, "left", state), Circuit(final, kind, "right", state)
+        legs: tuple[CircuitLeg, ...] = ("crosswind", "downwind", "base")
+        is_right = any(right.is_on(leg, self._here, state.track_rad) for leg in legs)
+        return right if side == "right" or (side is None and is_right) else left
 
     def _plan_extension(self, leg: CircuitLeg) -> Act:
         joined_circuit = self._require_circuit()

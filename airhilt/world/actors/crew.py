@@ -27,6 +27,7 @@ from airhilt.commands import (
     TaxiCommand,
     TaxiToCommand,
     TrackCommand,
+    TurnAtCommand,
     TurnCommand,
     VacateCommand,
 )
@@ -70,6 +71,7 @@ ENDS_DEPARTURE = (
     HoldShortCommand,
     FollowCommand,
     VacateCommand,
+    TurnAtCommand,
 )
 """Commands after which an aircraft lines up or takes off only when it is told again."""
 ON_TO_A_RUNWAY = (TakeOffCommand, LineUpCommand, ContinueCommand, CrossCommand)
@@ -208,7 +210,7 @@ class Crew:
         if isinstance(command, BehindCommand):
             self._plan(command.command)
             return self._behind.plan(command)
-        act = self._departure.plan(command) or self.runway_operations.plan_exit(command)
+        act = self._departure.plan(command) or self.runway_operations.plan_off_runway(command)
         if act is not None:
             return act
         act = self._ground.plan(command)

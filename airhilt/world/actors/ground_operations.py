@@ -18,6 +18,7 @@ from airhilt.commands import (
     PushBackCommand,
     TaxiCommand,
     TaxiToCommand,
+    TurnAtCommand,
     VacateCommand,
 )
 from airhilt.geodesy.wgs84 import Place, distance_m
@@ -95,8 +96,10 @@ class GroundOperations:
                 return self._plan_enter(runway, at)
             case VacateCommand():
                 return self._plan_vacate(command)
-            case FollowCommand(whom=whom):
-                return self._plan_follow(whom)
+            case TurnAtCommand():
+                return self._plan_turn(command)
+            case FollowCommand():
+                return self._plan_follow(command)
             case GiveWayCommand(to=to):
                 return self._plan_give_way(to)
             case PushBackCommand():
@@ -193,9 +196,17 @@ class GroundOperations:
         return begin
 
     def _errand_to(self, command: TaxiToCommand) -> Errand:
-        """Return the errand of a taxi clearance from here; one without an end changes the way."""
+        """Return the errand of a taxi clearance from here.
+
+        One without an end changes the way, or ends where it holds short.
+        """
         if command.runway is None and command.place is None and self._told is not None:
-            command = self._told.model_copy(update={"via": command.via})
+            to = {"runway": self._told.runway, "place": self._told.place}
+            try:
+                return self._errand_to(command.model_copy(update=to))
+            except Unable:
+                if not command.hold_short:
+                    raise
         airport = self._site.airport
         way = way_to(airport, self._here, self._body.state.heading_rad, command)
         short_m = self._nose_m + NOSE_MARGIN_M if way.is_hold else 0.0
@@ -252,8 +263,8 @@ class GroundOperations:
                 raise Unable("say again, hold short of what")
         if taxiway is not None:
             require_taxiway(self._site.airport, taxiway)
-        if runway is not None and self.is_on(strip_name(self._site.airport, runway)):
-            raise Unable(f"unable, already on runway {runway}")
+        if runway is not None:
+            self._require_off(runway)
         if errand is None or self.has_arrived:
             return self._body.stop
         hold = self._plan_hold_short_on(errand, runway or taxiway or "")
@@ -265,6 +276,11 @@ class GroundOperations:
 
         self._require_room(errand, runway)
         return hold_short
+
+    def _require_off(self, runway: str) -> None:
+        """Raise `Unable` if the body is on a runway, or there is none of that name."""
+        if self.is_on(strip_name(self._site.airport, runway)):
+            raise Unable(f"unable, already on runway {runway}")
 
     def _require_room(self, errand: Errand, runway: str | None) -> None:
         """Raise `Unable` if the body is too fast to stop before a runway."""
@@ -373,6 +389,13 @@ class GroundOperations:
         leaving.clear_from_runway(strip.name)
         return partial(self._begin, leaving)
 
+    def _plan_turn(self, command: TurnAtCommand) -> Act:
+        """Return what turns onto a taxiway, off the runway on which the body is or on its way."""
+        name, side = command.taxiway, command.side
+        if any(self.is_on(strip) for strip in self._site.airport.strips):
+            return self._plan_vacate(VacateCommand(action="vacate", exit=name, side=side))
+        return self._plan_taxi(TaxiToCommand(action="taxi_to", via=(name,)))
+
     # --- other traffic ------------------------------------------------------------------------
 
     def _plan_give_way(self, to: str) -> Act:
@@ -385,18 +408,23 @@ class GroundOperations:
 
         return give_way
 
-    def _plan_follow(self, whom: str) -> Act | None:
+    def _plan_follow(self, command: FollowCommand) -> Act | None:
         if self._body.is_airborne:
             return None
         self._require_free()
-        leader = self._traffic.named(whom)
+        leader = self._traffic.named(command.whom)
         if not leader.body.on_ground:
-            raise Unable(f"unable, {whom} is airborne")
+            raise Unable(f"unable, {command.whom} is airborne")
         airport, state = self._site.airport, leader.body.state
         there = state.latitude_rad, state.longitude_rad
         way = airport.taxi_route(self._here, there, (), self._body.state.heading_rad)
         errand = self._errand_on([self._here, *way], goes_on=False)
         errand.end_m = max(errand.end_m - self._gap_m(leader), 0.0)
+        for name in command.hold_short:
+            if name[:1].isdigit():  # It stops before each runway to which the leader goes.
+                self._require_off(name)
+            else:
+                self._plan_hold_short_on(errand, name)()
 
         def follow() -> None:
             self._begin(errand)

@@ -16,8 +16,10 @@ from airhilt.commands import (
     SpeedCommand,
     TakeOffCommand,
     TrackCommand,
+    TurnAtCommand,
     VacateCommand,
 )
+from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.slots import FIX, LEVEL_HERE, level_ft
 from airhilt.phraseology.vertical import level_in
 from airhilt.scenario.models import (
@@ -85,8 +87,14 @@ def condition_of(words: str, callsign: str, before: Iterable[Command]) -> Condit
     if altitude_ft is not None:
         return AltitudeReached(type="altitude_reached", actor=callsign, altitude_ft=altitude_ft)
     if re.fullmatch(FIX, what):
-        return FixPassed(type="fix_passed", actor=callsign, fix=what.upper())
+        return FixPassed(type="fix_passed", actor=callsign, fix=fix_named(what))
     return None
+
+
+def fix_named(words: str) -> str:
+    """Return the name of a fix, of which the letters may be spelled."""
+    spelled = [LETTER_OF.get(word, "") for word in words.split()]
+    return "".join(spelled) if len(spelled) > 1 and all(spelled) else words
 
 
 def done(command: Command, callsign: str) -> Condition | None:
@@ -104,7 +112,7 @@ def done(command: Command, callsign: str) -> Condition | None:
             return HeightAbove(type="height_above", actor=callsign, height_ft=DEPARTED_FT)
         case LineUpCommand():
             return InPhase(type="in_phase", actor=callsign, phases=("lined_up",))
-        case VacateCommand() | LandCommand():
+        case VacateCommand() | TurnAtCommand() | LandCommand():
             return OffRunways(type="off_runways", actor=callsign)
         case CrossCommand():
             return OffRunways(type="off_runways", actor=callsign, has_been_on=True)

@@ -49,13 +49,22 @@ from airhilt.commands import (
     TakeOffCommand,
     TaxiToCommand,
     TrackCommand,
+    TurnAtCommand,
     TurnCommand,
     VacateCommand,
     VerticalRateCommand,
 )
 from airhilt.phraseology import Action, Instruction
+from airhilt.phraseology.call import OTHERWISE
 from airhilt.scenario.models import Condition
-from airhilt.world.actors.order_conditions import READY, THEN, condition_of, done, is_departed
+from airhilt.world.actors.order_conditions import (
+    READY,
+    THEN,
+    condition_of,
+    done,
+    fix_named,
+    is_departed,
+)
 
 NOTHING_MOVES: frozenset[Action] = frozenset(
     {"squawk", "ident", "report", "say", "stand_by", "continue_approach", "start_up",
@@ -79,7 +88,7 @@ DOES: Mapping[str, frozenset[str]] = {
 WAITING = get_args(BehindCommand.model_fields["command"].annotation)
 """Commands that wait for other traffic."""
 ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short"})
-"""Actions that are part of a taxi clearance in the same call."""
+"""Actions that are part of another clearance in the same call: to taxi, to follow, to land."""
 
 
 Subject = Literal["level", "speed", "track", "approach", "radio", "surface"]
@@ -88,7 +97,7 @@ _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
         AltitudeCommand, DriftDownCommand, EmergencyDescentCommand, VerticalRateCommand,
         CrossFixCommand,
     ),
-    "speed": (SpeedCommand, ResumeSpeedCommand),
+    "speed": (SpeedCommand, MachCommand, ResumeSpeedCommand),
     "track": (
         TrackCommand, TurnCommand, RouteCommand, ResumeRouteCommand, DirectCommand, OrbitCommand,
         HoldAtCommand,
@@ -136,8 +145,10 @@ def orders_of(
     positive east. An instruction without a runway means the one that the actor is going to use. A
     runway that is named with an approach is that of what follows in the call. A level that comes
     with a takeoff or a go-around is the level that it climbs to, and a heading that comes with a
-    takeoff is flown after it. A limit is kept by flying at it. What a call with a taxi clearance
-    says about runways to cross and where to hold short is part of that clearance.
+    takeoff is flown after it. A limit is kept by flying at it; that of a low approach is part of
+    its clearance. What a call with a taxi clearance says about runways to cross and where to hold
+    short is part of that clearance, and so is where to hold short with whom to follow, and the
+    runway to hold short of with a clearance to land.
     """
     given = tuple(instructions)
     now = [each for each in given if not each.is_conditional]
@@ -145,18 +156,20 @@ def orders_of(
     level_ft = next((each.altitude_ft for each in levels if each.altitude_ft is not None), None)
     climbs = any(each.action in ("cleared_for_takeoff", "go_around") for each in now)
     heading_deg = _heading_after_takeoff(given)
-    on_the_way = _on_the_way(now)
+    details = _details(now)
     orders: list[Order] = []
     for each in given:
-        is_part = on_the_way is not None and each.action in ON_THE_WAY
+        is_part = not each.is_conditional and any(each in part.of for part in details)
         is_level = climbs and each.action == "altitude"
-        is_level |= each.action == "heading" and (
-            heading_deg is not None or (climbs and each.heading_deg is None)
+        is_level |= (
+            each.action == "heading"
+            and not _is_turn_at(each)
+            and (heading_deg is not None or (climbs and each.heading_deg is None))
         )
-        if each.action in NOTHING_MOVES or is_level or (is_part and not each.is_conditional):
+        if each.action in NOTHING_MOVES or is_level or is_part:
             orders.append(Order(each))
         else:
-            order = _order(each, bound_runway, level_ft, variation_deg, on_the_way)
+            order = _order(each, bound_runway, level_ft, variation_deg, details)
             if each.condition is not None and order.command is not None:
                 order = _once(each, order.command, callsign, orders)
             if heading_deg is not None and isinstance(order.command, TakeOffCommand):
@@ -183,23 +196,44 @@ def _heading_after_takeoff(given: Sequence[Instruction]) -> float | None:
     )
 
 
-def _on_the_way(given: Sequence[Instruction]) -> _OnTheWay | None:
-    """Return what a taxi clearance says about its way; None if the call has none."""
-    if not any(each.action == "taxi" and (each.runway or each.position) for each in given):
-        return None
-    short = [each.runway or each.hold_short or each.position for each in given
-             if each.action == "hold_short"]  # fmt: skip
-    return _OnTheWay(
-        cross=tuple(each.runway for each in given if each.action == "cross" and each.runway),
-        hold_short=tuple(name for name in short if name is not None),
-    )
+class _Detail(NamedTuple):
+    """Instructions that say one thing about a clearance in the same call, and what they say."""
+
+    of: tuple[Instruction, ...]
+    about: type[BaseModel]
+    """Command of the clearance."""
+    told: Mapping[str, object]
 
 
-class _OnTheWay(NamedTuple):
-    """Runways and taxiways on the way of a taxi clearance to cross, and to hold short of."""
+def _details(given: Sequence[Instruction]) -> list[_Detail]:
+    """Return what instructions of a call say about its other clearances."""
+    taxis = any(each.action == "taxi" and (each.runway or each.position or each.via)
+                for each in given)  # fmt: skip
+    does = {each.action for each in given}
+    crossed = tuple(each for each in given if each.action == "cross" and each.runway)
+    short = tuple(each for each in given if each.action == "hold_short" and _short_of(each))
+    names = tuple(_short_of(each) for each in short)
+    least = tuple(each for each in given if each.action == "altitude" and each.bound == "or_more")
+    if taxis:
+        told = {"cross": tuple(each.runway for each in crossed), "hold_short": names}
+        return [_Detail((*crossed, *short), TaxiToCommand, told)]
+    if "follow" in does:
+        return [_Detail(short, FollowCommand, {"hold_short": names})]
+    if "cleared_to_land" in does and short and short[0].runway:
+        return [_Detail(short[:1], LandCommand, {"hold_short": short[0].runway})]
+    if "low_approach" in does and least:
+        return [_Detail(least[:1], LandCommand, {"not_below_ft": least[0].altitude_ft})]
+    return []
 
-    cross: tuple[str, ...]
-    hold_short: tuple[str, ...]
+
+def _short_of(told: Instruction) -> str | None:
+    """Return the runway or taxiway to hold short of."""
+    return told.runway or told.hold_short or told.position
+
+
+def _is_turn_at(told: Instruction) -> bool:
+    """Return whether a turn is onto a taxiway, and to no heading."""
+    return told.action == "heading" and told.turn is not None and told.position is not None
 
 
 def _order(
@@ -207,12 +241,13 @@ def _order(
     bound_runway: str | None,
     level_ft: float | None,
     variation_deg: float,
-    on_the_way: _OnTheWay | None,
+    details: Sequence[_Detail],
 ) -> Order:
     try:
         command = _command(instruction, bound_runway, level_ft, variation_deg)
-        if on_the_way is not None and isinstance(command, TaxiToCommand):
-            command = TaxiToCommand.model_validate({**command.model_dump(), **on_the_way._asdict()})
+        for detail in details:
+            if isinstance(command, detail.about):
+                command = command.model_validate({**command.model_dump(), **detail.told})
     except NotUnderstood as asks:
         return Order(instruction, question=str(asks))
     except pydantic.ValidationError:
@@ -232,7 +267,7 @@ def _once(
     """
     condition = instruction.condition or ""
     commands = [each.command for each in before if each.command is not None]
-    if READY.fullmatch(condition):
+    if condition == OTHERWISE or READY.fullmatch(condition):
         return Order(instruction, command)
     if condition == THEN:
         last = commands[-1] if commands else None
@@ -334,9 +369,8 @@ def _in_circuit(told: Instruction, bound_runway: str | None) -> Command | None:
     match told.action:
         case "join":
             leg = _leg(place)
-            side = turn or "left"
             return JoinCommand(
-                action="join", leg=leg, runway=_runway(told, bound_runway), side=side
+                action="join", leg=leg, runway=_runway(told, bound_runway), side=turn
             )
         case "extend":
             return ExtendCommand(action="extend", leg=_leg(place or "downwind"))
@@ -354,11 +388,9 @@ def _en_route(told: Instruction) -> Command | None:
     turn = told.turn
     match told.action:
         case "direct":
-            return DirectCommand(action="direct", to=_named(told, "the fix"))
+            return DirectCommand(action="direct", to=_fix(told))
         case "hold_at":
-            return HoldAtCommand(
-                action="hold_at", fix=_named(told, "the fix"), turn=turn or "right"
-            )
+            return HoldAtCommand(action="hold_at", fix=_fix(told), turn=turn or "right")
         case "own_navigation":
             return ResumeRouteCommand(action="resume_route")
         case "speed" if told.speed_kt is not None:
@@ -373,7 +405,9 @@ def _en_route(told: Instruction) -> Command | None:
             return VerticalRateCommand(action="vertical_rate", vertical_rate_fpm=told.rate_fpm)
         case "cross_fix" if told.altitude_ft is not None:
             return CrossFixCommand(
-                action="cross_fix", fix=_named(told, "the fix"), altitude_ft=told.altitude_ft
+                action="cross_fix",
+                fix=_fix(told),
+                altitude_ft=told.altitude_ft,
             )
     return None
 
@@ -393,6 +427,9 @@ def _flown(told: Instruction, variation_deg: float) -> Command | None:
             if told.heading_deg is None:
                 if told.position is None:
                     raise NotUnderstood("say heading")
+                if told.turn is not None:
+                    taxiway = told.position
+                    return TurnAtCommand(action="turn_at", taxiway=taxiway, side=told.turn)
                 return TurnCommand(action="turn", degrees=0.0)  # The present or runway heading.
             track_deg = (told.heading_deg + variation_deg) % 360.0
             return TrackCommand(action="track", track_deg=track_deg)
@@ -449,6 +486,10 @@ def _runway(told: Instruction, bound_runway: str | None) -> str:
     if runway := told.runway or bound_runway:
         return runway
     raise NotUnderstood("say runway")
+
+
+def _fix(told: Instruction) -> str:
+    return fix_named(_named(told, "the fix"))
 
 
 def _named(told: Instruction, what: str) -> str:

@@ -6,7 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from airhilt.commands import Command, LandCommand, VacateCommand
+from airhilt.commands import (
+    Command,
+    HoldShortCommand,
+    LandCommand,
+    TurnAtCommand,
+    VacateCommand,
+)
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Act, Unable
@@ -18,6 +24,8 @@ from airhilt.world.actors.taxi_paths import (
     TOUCHDOWN_M,
     exit_for,
     exits_named,
+    path_short_of,
+    stays_short_of,
 )
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
@@ -37,6 +45,8 @@ TOO_HIGH_M = 150.0 * FOOT
 (ICAO Annex 10 volume I, 3.1.5.1.4)."""
 LOW_APPROACH_M = 100.0 * FOOT
 """Height in m from which a low approach climbs away; assumed."""
+SINKS_M = 60.0 * FOOT
+"""Height in m that a go-around loses at most before it climbs; assumed."""
 TAKEOFF_M_S2 = 1.5
 """Acceleration of a takeoff roll, in m/s2; assumed: less than that of each type that ships."""
 GO_AGAIN_S = 3.0
@@ -175,7 +185,7 @@ class RunwayOperations:
         then = "full_stop" if self._cleared is None else self._cleared.then
         if phase in APPROACHING:
             self._go_around_uncleared(final)
-            if then == "low_approach" and self._aircraft.state.height_agl_m < LOW_APPROACH_M:
+            if then == "low_approach" and self._is_low_enough():
                 self.go_around()
         if phase == "glide":
             self._go_around_if_too_high(final)
@@ -185,15 +195,41 @@ class RunwayOperations:
             self._cleared = None
             self._aircraft.procedures.take_off(final.runway, self.usual_climb_m())
 
+    def _is_low_enough(self) -> bool:
+        """Return whether a low approach climbs away now."""
+        state = self._aircraft.state
+        least_ft = None if self._cleared is None else self._cleared.not_below_ft
+        if least_ft is not None and state.altitude_m < least_ft * FOOT + SINKS_M:
+            return True
+        return state.height_agl_m < LOW_APPROACH_M
+
     # --- the way off the runway -----------------------------------------------------------------
 
-    def plan_exit(self, command: Command) -> Act | None:
-        """Return what makes a landing aircraft leave its runway at a place; None if it has landed.
+    def plan_off_runway(self, command: Command) -> Act | None:
+        """Return what makes a landing aircraft leave its runway at a place, or stop on it.
 
-        `Unable` says why it cannot leave there.
+        It is None if the aircraft has landed, or is not cleared to. `Unable` says why it cannot
+        leave, or stop, there.
         """
+        match command:
+            case VacateCommand():
+                return self._plan_exit(command)
+            case TurnAtCommand(taxiway=name, side=side):
+                return self._plan_exit(VacateCommand(action="vacate", exit=name, side=side))
+            case HoldShortCommand(runway=str(runway)):
+                return self._plan_to_stop_short(runway)
+        return None
+
+    def _plan_to_stop_short(self, runway: str) -> Act | None:
+        if self._cleared is None or self._aircraft.on_ground:
+            return None
+        command = self._cleared.model_copy(update={"hold_short": runway})
+        is_flown = self._aircraft.phase in APPROACHING
+        return self.plan_leaving(command) if is_flown else self.plan_clearance(command)
+
+    def _plan_exit(self, command: VacateCommand) -> Act | None:
         phase, final = self._aircraft.phase, self._final
-        if not isinstance(command, VacateCommand) or final is None:
+        if final is None:
             return None
         if phase in ("approach", "orbit", "glide", "flare", "rollout"):
             begin = self._aircraft.procedures.leave_at
@@ -202,6 +238,9 @@ class RunwayOperations:
         else:
             return None
         path = self._exit(final, command).path
+        short = None if self._cleared is None else self._cleared.hold_short
+        if short is not None and not stays_short_of(self._site, final.runway, short, path):
+            raise Unable(f"unable, holding short of runway {short}")
 
         def leave_there() -> None:
             self._exit_path = path
@@ -251,6 +290,9 @@ class RunwayOperations:
         speed_m_s = self._aircraft.kind.speeds.approach_kt * KNOT
         if command.then in ("touch_and_go", "stop_and_go"):
             self._require_runway_for(command, runway, speed_m_s)
+        if command.hold_short is not None:
+            nose_m = self._aircraft.dimensions.length_m / 2.0
+            return path_short_of(self._site, runway, command.hold_short, speed_m_s, nose_m)
         if not command.vacate or command.then != "full_stop":
             return ()
         way_out = exit_for(self._site, runway, speed_m_s, command.exit)

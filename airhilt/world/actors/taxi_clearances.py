@@ -95,7 +95,7 @@ def _ends(airport: Layout, command: TaxiToCommand) -> list[str]:
     if command.runway is not None:
         return _holds_for(airport, command.runway, command.place, command.via)
     if command.place is None:
-        raise Unable("say again, taxi to where")
+        return _short_of(airport, command)
     if found := _holds_on(airport, command.place, command.hold_short):
         return found
     if found := nodes_of(airport, command.place):
@@ -103,6 +103,20 @@ def _ends(airport: Layout, command: TaxiToCommand) -> list[str]:
     known = [*airport.stands, *sorted({edge.taxiway for edge in airport.airport.taxiways.edges})]
     icao = airport.airport.icao
     raise Unable(f"unable, no {command.place} at {icao}{_nearest(command.place, known)}")
+
+
+def _short_of(airport: Layout, command: TaxiToCommand) -> list[str]:
+    """Return the ends of a call such as "taxi via K, hold short of runway 04"."""
+    if not (command.via and command.hold_short):
+        raise Unable("say again, taxi to where")
+    name = command.hold_short[-1]
+    if not name[:1].isdigit():
+        require_taxiway(airport, name)
+        return nodes_of(airport, name)
+    strip = strip_name(airport, name)
+    return _holds_on(airport, command.via[-1], (name,)) or [
+        hold.name for hold in airport.holds.values() if hold.runway == strip
+    ]
 
 
 def _holds_on(airport: Layout, place: str, hold_short: Sequence[str]) -> list[str]:
@@ -194,6 +208,8 @@ def _nearest(name: str, known: Sequence[str]) -> str:
 
 
 def _said(command: TaxiToCommand) -> str:
+    if command.runway is None and command.place is None:
+        return f"hold short of {command.hold_short[-1]}"
     return command.place or f"runway {command.runway}"
 
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from airhilt.commands import Side, TaxiCommand
 from airhilt.errors import ScenarioError
-from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, distance_m
+from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, distance_m, onward
 from airhilt.units import wrap_angle
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.taxi_clearances import require_taxiway, strip_name
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
-from airhilt.world.surface.ways import taxi_way
+from airhilt.world.surface.ways import NOSE_MARGIN_M, taxi_way
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Exit, Hold
@@ -32,6 +33,8 @@ FIRM_BRAKING_M_S2 = 3.0
 landing setting."""
 EXIT_SPEED_M_S = 8.0
 """Speed of the turn onto a taxiway, in m/s."""
+CREEP_M = 60.0
+"""Length of the slow way to a place to hold short on a runway, in m; assumed."""
 
 
 def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: float) -> list[Place]:
@@ -121,3 +124,47 @@ def exit_for(
         both_sides,
         key=lambda way: min((distance_m(way.path[-1], stand) for stand in stands), default=0.0),
     )
+
+
+def path_short_of(
+    site: ScenarioSite, runway: RunwayEnd, crossing: str, speed_m_s: float, nose_m: float
+) -> list[Place]:
+    """Return the way of a landing that stays short of a runway that crosses its own.
+
+    It leaves by the first exit that a normal rollout can take, if that is short of the other
+    runway, or ends on the runway. `Unable` says that there is not enough runway for either.
+    """
+    # Not at the top: scenarios without an airport start without the libraries behind it.
+    from shapely import LineString, Point
+
+    airport = site.airport
+    strip = airport.strips[strip_name(airport, crossing)]
+    if runway in strip.ends:
+        raise Unable(f"unable, landing on runway {runway.ident}")
+    way_out = exit_for(site, runway, speed_m_s, None)
+    if way_out is not None and stays_short_of(site, runway, crossing, way_out.path):
+        return list(way_out.path)
+    to_local, area = airport.local_frame.to_local, strip.protected_area
+    length_m = runway.length_m - runway.displaced_m
+    far_end = onward(runway.threshold, runway.course_rad, length_m)
+    first = Point(to_local(runway.threshold))
+    crossed = LineString([first, to_local(far_end)]).intersection(area)
+    free_m = length_m if crossed.is_empty else first.distance(crossed)
+    stop_m = free_m - nose_m - NOSE_MARGIN_M
+    if TOUCHDOWN_M + speed_m_s**2 / (2.0 * BRAKING_M_S2) > stop_m:
+        raise Unable(f"unable to land and hold short of runway {crossing}")
+    return [
+        onward(runway.threshold, runway.course_rad, along_m)
+        for along_m in (stop_m - CREEP_M, stop_m)
+    ]
+
+
+def stays_short_of(
+    site: ScenarioSite, runway: RunwayEnd, crossing: str, path: Sequence[Place]
+) -> bool:
+    """Return whether a landing with a path off the runway stays short of another runway."""
+    from shapely import LineString
+
+    airport = site.airport
+    way = LineString([airport.local_frame.to_local(each) for each in (runway.threshold, *path)])
+    return bool(way.disjoint(airport.strip_of(crossing).protected_area))

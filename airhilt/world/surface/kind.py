@@ -22,6 +22,7 @@ from airhilt.commands import (
     StandCommand,
     TaxiCommand,
     TaxiToCommand,
+    TurnAtCommand,
     VacateCommand,
 )
 from airhilt.geodesy.local_frame import LocalFrame
@@ -151,6 +152,7 @@ class DrivenKind:
         HoldPositionCommand,
         ContinueCommand,
         HoldShortCommand,
+        TurnAtCommand,
         CrossCommand,
         EnterCommand,
         VacateCommand,

@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 import pytest
 
-from airhilt.phraseology import Action, Instruction
+from airhilt.phraseology import Action, Instruction, parse_call
 from airhilt.world.actors.orders import NOTHING_MOVES, orders_of
 
 
@@ -120,8 +120,9 @@ def test_when_ready_is_now_and_other_conditions_are_asked_about() -> None:
         ("after passing 3 thousand", {"type": "altitude_reached", "altitude_ft": 3000.0}),
         ("leaving flight level 120", {"type": "altitude_reached", "altitude_ft": 12_000.0}),
         ("at 4 thousand 500 feet", {"type": "altitude_reached", "altitude_ft": 4500.0}),
-        ("after lam", {"type": "fix_passed", "fix": "LAM"}),
-        ("over casanova", {"type": "fix_passed", "fix": "CASANOVA"}),
+        ("after lam", {"type": "fix_passed", "fix": "lam"}),
+        ("over lima alfa mike", {"type": "fix_passed", "fix": "LAM"}),
+        ("over casanova", {"type": "fix_passed", "fix": "casanova"}),
         ("when clear of the runway", {"type": "off_runways", "has_been_on": False}),
         ("once you have vacated runway 01", {"type": "off_runways", "has_been_on": False}),
         ("after landing", {"type": "off_runways", "has_been_on": False}),
@@ -185,3 +186,35 @@ def test_speeds_rates_and_levels_at_fixes_are_orders_too(subtests: pytest.Subtes
         with subtests.test(str(instruction)):
             made = order(Instruction(**instruction)).command
             assert made.model_dump().items() >= command.items()
+
+
+SAID: list[tuple[str, list[dict[str, Any] | None]]] = [
+    ("cleared to land, turn left at Foxtrot",
+     [{"action": "land"}, {"action": "turn_at", "taxiway": "F", "side": "left"}]),
+    ("fly present heading", [{"action": "turn", "degrees": 0.0}]),
+    ("right at the high speed", [{"action": "vacate", "exit": None, "side": "right"}]),
+    ("cleared to land, hold short of runway one five",
+     [{"action": "land", "hold_short": "15"}, None]),
+    ("cleared low approach at or above five hundred feet",
+     [{"action": "land", "then": "low_approach", "not_below_ft": 500.0}, None]),
+    ("proceed via Kilo and Juliett, hold short of runway one five",
+     [{"action": "taxi_to", "via": ("K", "J"), "hold_short": ("15",)}, None]),
+    ("follow the Boeing, hold short of runway four",
+     [{"action": "follow", "hold_short": ("04",)}, None]),
+    ("turn base now", [{"action": "join", "leg": "base", "side": None}]),
+    ("cleared direct Lima Alpha Mike", [{"action": "direct", "to": "LAM"}]),
+    ("take off immediately or vacate runway", [{"action": "take_off"}, {"action": "vacate"}]),
+]  # fmt: skip
+"""Words to an aircraft that is going to use runway 01, and the commands of their instructions."""
+
+
+@pytest.mark.parametrize(("words", "commands"), SAID, ids=[words for words, _ in SAID])
+def test_the_words_of_a_call_are_these_orders(
+    words: str, commands: list[dict[str, Any] | None]
+) -> None:
+    call = parse_call(f"American one two three, {words}", ["AAL123"])
+    made = [each.command for each in orders_of(call.instructions, "01", 0.0, "AAL1")]
+    assert [each is None for each in made] == [each is None for each in commands]
+    for each, command in zip(made, commands, strict=True):
+        if each is not None and command is not None:
+            assert each.model_dump().items() >= command.items()
