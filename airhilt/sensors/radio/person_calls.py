@@ -100,8 +100,10 @@ class PersonCalls:
         # It is always known whom a crew calls: its unit.
         has_addressee = self._stations.is_actor(said.speaker) or meant.callsign is not None
         is_clear = meant.confidence >= TAU_ASR and has_addressee
-        make = self.make if is_clear else self._unclear
-        call = make(said.speaker, said.frequency_khz, text)
+        if is_clear:
+            call = self.make(said.speaker, said.frequency_khz, text)
+        else:
+            call = self._unclear(said.speaker, said.frequency_khz, text, meant)
         words = replace(said, text=text, addressed=call.addressed)
         return RecognisedCall(call, words, on_air, is_clear)
 
@@ -132,17 +134,17 @@ class PersonCalls:
         ]
         return calls[-1] if calls and not calls[-1].is_of_person else None
 
-    def _unclear(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
-        """Return a call of whose words nobody is sure, to whoever expects one.
+    def _unclear(self, speaker: str, frequency_khz: int, text: str, meant: Call) -> RadioCall:
+        """Return a call of whose words nobody is sure, to whom it names, or to whoever expects one.
 
         The unit of a crew expects it, the addressee of an open task card, or the only actor on the
         frequency. Without any of them, nobody answers.
         """
         call = self._own(speaker, frequency_khz)
         call.text = text
-        call.addressed = self._addressed(speaker, Call(), frequency_khz)
+        call.addressed = self._addressed(speaker, meant, frequency_khz)
         others = [name for name in self._stations.actors_on(frequency_khz) if name != speaker]
-        expecting = [one.addressed for one in self._due if one.speaker == speaker]
+        expecting = [one.addressed for one in self._due if one.speaker == speaker and one.addressed]
         if call.addressed is None and not self._stations.is_actor(speaker):
             call.addressed = next(iter(expecting), others[0] if len(others) == 1 else None)
         return call

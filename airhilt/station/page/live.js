@@ -290,6 +290,7 @@ export class Live extends Pane {
       this.#lag.told();
     }
     if (this.run.pace !== pace || this.run.phase !== phase) this.clock.paced();
+    if (this.run.phase !== phase) this.#panes.seat.setPhase();
     if (this.run.isOver) for (const pane of [this.#panes.seat, this.#panes.talk]) pane.end();
     for (const kind of changed) this.#undrawn.add(kind);
     this.#drawing ??= setTimeout(

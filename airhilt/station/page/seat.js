@@ -51,6 +51,12 @@ export class Seat extends Pane {
       if (text) this.#say(text);
     });
     this.setSeats({});
+    this.setPhase();
+  }
+
+  /** Offers the seats once the run can answer for them. */
+  setPhase() {
+    byId("seat-take").disabled = this.run.live && (this.run.phase ?? "waiting") === "waiting";
   }
 
   get keys() {

@@ -352,6 +352,17 @@ def test_who_is_not_sure_of_what_was_recognised_asks_again(text: str, confidence
     assert any("say-again" in name for name in world.said())
 
 
+def test_of_several_crews_the_one_that_heard_its_callsign_asks_for_unsure_words_again() -> None:
+    everybody = line("all", 5, TOWER, "", "All stations, information kilo.") | {"to": None}
+    hello = line("hello", 50, "AAL123", TOWER, "Hello.")
+    world = Seated(everybody, hello, seats=[TOWER], backend=Sounding(160.0), strangers=("DAL456",))
+    world.speaks(12.0, 14.0, TOWER)
+    words = transcript("american one two three contact ground", 0.79)
+    world.at(15.0, partial(world.conversation.take, f"asr/{KHZ}", words, b"")).run_until(40.0)
+    assert [outcome for _, outcome in world.hearings("AAL123")] == ["unsure"]
+    assert any("say-again" in name for name in world.said())
+
+
 def test_without_a_task_words_that_name_nobody_are_for_the_only_crew_on_the_frequency() -> None:
     """With several crews there, they are for none of them."""
     hello = line("hello", 50, "AAL123", TOWER, "Hello.")
