@@ -17,7 +17,7 @@ from airhilt.host.text import readable
 
 LONGEST_PATH = 100
 """Number of characters that an error shows of a path."""
-LONGEST_TEXT = 300
+LONGEST_TEXT = 400
 """Number of characters that an error shows of what is wrong there."""
 
 

@@ -168,7 +168,7 @@ class Compliance:
     def _refusal(self, actor: str, command: Command, when: Condition | None = None) -> str | None:
         """Return why an actor cannot carry out a command now; a person decides without us.
 
-        Of a command that waits for a condition it is known only whether that can come true.
+        A command that waits for a condition is refused only if that can never come true.
         """
         if self._seats.has_person(actor):
             return None
