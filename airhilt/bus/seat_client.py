@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from contextlib import suppress
 from secrets import token_urlsafe
 
@@ -11,6 +12,9 @@ from airhilt.messages import SeatAct, SeatAction, SeatAnswer, TakeSeat, key_chun
 
 ANSWERED_S = 10.0
 """Longest time that the answer of the run may take, in s."""
+BEGINS_S = 3.0
+"""Time in s for which nobody at all may answer before the run counts as unreachable."""
+BETWEEN_S = 0.1
 UNREACHABLE = "the run does not answer"
 
 
@@ -46,12 +50,17 @@ class SeatClient:
     def act(self, act: SeatAct) -> str:
         """Do something at the seat; return why that is refused, empty if it is not."""
         action = SeatAction(holder=self.holder, secret=self._secret, act=act)
+        until_s = time.monotonic() + BEGINS_S
         with suppress(zenoh.ZError):  # The run has ended.
-            for reply in self._session.get(
-                f"{self._key}/do", payload=action.model_dump_json().encode(), timeout=ANSWERED_S
-            ):
-                if reply.ok is not None:
-                    return SeatAnswer.model_validate_json(reply.ok.payload.to_bytes()).reason
+            while True:  # A run that begins is seen before it is known where it answers.
+                for reply in self._session.get(
+                    f"{self._key}/do", payload=action.model_dump_json().encode(), timeout=ANSWERED_S
+                ):
+                    if reply.ok is not None:
+                        return SeatAnswer.model_validate_json(reply.ok.payload.to_bytes()).reason
+                if time.monotonic() > until_s:
+                    break
+                time.sleep(BETWEEN_S)
         return UNREACHABLE
 
     def close(self) -> None:
