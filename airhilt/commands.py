@@ -377,6 +377,13 @@ class ContactCommand(_Command):
     calls: Flag = Field(default=True, description="false: it only listens there")
 
 
+class ReportCommand(_Command):
+    """Call the unit and say something, such as "vacated"."""
+
+    action: Literal["report"]
+    words: Name
+
+
 # --- wildlife -------------------------------------------------------------------------------
 
 
@@ -438,6 +445,7 @@ AircraftCommand = (
     | GiveWayCommand
     | PushBackCommand
     | BehindCommand
+    | ReportCommand
     | ContactCommand
 )
 WildlifeCommand = MoveCommand | StandCommand

@@ -32,14 +32,15 @@ def phrase_of(instruction: Instruction, style: Style, *, readback: bool) -> str:
     """Return the words of one instruction, with its condition and its limit."""
     words = _FORMS[instruction.action](_Slots(instruction, style, readback))
     if instruction.until is not None:
-        words = f"{words} {_with_digits(instruction.until, style)}"
+        words = f"{words} {with_digits(instruction.until, style)}"
     if instruction.condition is None:
         return words
     comma = "" if instruction.condition == "then" else ","
-    return f"{_with_digits(instruction.condition, style)}{comma} {words}"
+    return f"{with_digits(instruction.condition, style)}{comma} {words}"
 
 
-def _with_digits(words: str, style: Style) -> str:
+def with_digits(words: str, style: Style) -> str:
+    """Return words whose numbers are said digit by digit."""
     return re.sub(r"[0-9]+", lambda found: speak_digits(found[0], style), words)
 
 
@@ -65,7 +66,7 @@ class _Slots:
         position = self.told.position or ""
         if re.fullmatch(r"[A-Z][0-9]{0,2}", position):
             return spell(position, self.style)
-        return _with_digits(position, self.style)
+        return with_digits(position, self.style)
 
     @property
     def at(self) -> str:

@@ -100,7 +100,7 @@ def unanswered(situation: str, actions: list[Action], out: Path) -> list[str]:
 def is_as_read_back(done: list[dict[str, Any]], answer: str) -> bool:
     """Return whether what was done is what the words of an answer order, and nothing else."""
     read_back = parse_call(answer, [callsign for callsign, _, _ in SITUATIONS.values()])
-    ordered = orders_of(read_back.instructions, "01", 0.0, "")
+    ordered = orders_of(read_back.instructions, "01", 0.0, "AAL1")
     meant = [each.command.model_dump() for each in ordered if each.command is not None]
     return bool(done) and meanings(meant) == meanings([json.loads(each["text"]) for each in done])
 

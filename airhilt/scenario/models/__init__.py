@@ -36,6 +36,7 @@ from airhilt.scenario.models.conditions import (
     LineBegun,
     LineEnded,
     OffRunways,
+    OnLeg,
     OnRunway,
     Pair,
     PredictedLossOfSeparation,

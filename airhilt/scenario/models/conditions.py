@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from airhilt.commands import CircuitLeg
 from airhilt.geodesy.positions import Bearing, RunwayIdent
 from airhilt.quantities import AltitudeFt, Flag, Name, Number, SpeedKt, TimeS
 from airhilt.scenario.models.base import Callsign, Identifier, Model
@@ -149,6 +150,17 @@ class FixPassed(Model):
     fix: Name = Field(description="its name in the scenario")
 
 
+class OnLeg(Model):
+    """True while an aircraft flies a leg of the circuit of the runway that it is bound for."""
+
+    type: Literal["on_leg"]
+    actor: Callsign
+    leg: CircuitLeg
+    within_nm: Number | None = Field(
+        default=None, gt=0.0, le=100.0, description="greatest distance of the threshold on final"
+    )
+
+
 class OffRunways(Model):
     """True while an actor is on the ground, and in the protected area of no runway."""
 
@@ -217,6 +229,7 @@ Condition = Annotated[
     | AirspeedReached
     | TrackReached
     | FixPassed
+    | OnLeg
     | OffRunways
     | DistanceBelow
     | Collided

@@ -6,26 +6,41 @@ controller gives because of an advisory, is drawn from the response model.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
-from airhilt.commands import Command, ContactCommand, GoAroundCommand
+from airhilt.commands import (
+    CancelTakeoffCommand,
+    Command,
+    ContactCommand,
+    GoAroundCommand,
+    HoldPositionCommand,
+    HoldShortCommand,
+    ReportCommand,
+)
 from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
 from airhilt.phraseology.call import OTHERWISE, STOPS, Action, Question
+from airhilt.phraseology.spoken_actions import with_digits
 from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
-from airhilt.world.actors.orders import ON_THE_WAY, Order, orders_of, subject_of
+from airhilt.world.actors.orders import ON_THE_WAY, Order, Subject, orders_of, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
 COMPLY_AFTER_S = 2.0
 """Time in s from taking a call to doing what was understood, where that is not what was said. The
 same as the default of scripted commands."""
+REPORTS_AFTER_S = 1.0
+"""Time in s from an event to the report of it: an assumption."""
 TUNING_S = 4.0
 """Time in s from leaving a frequency to the first call on the next one: an assumption."""
+SAME_LEVEL_FT = 200.0
+"""Difference in ft up to which a level is that at which an aircraft flies (AIM 4-5-2)."""
+STOPPING = (HoldPositionCommand, HoldShortCommand, CancelTakeoffCommand)
+"""Commands on the ground that are done whatever else the call says."""
 FORESEEN_S = 5.0
 """Time in s for which a crew foresees if it can do what the script has for it: an assumption."""
 
@@ -91,33 +106,87 @@ class Compliance:
         commands: dict[Command, Condition | None] = {}
         accepted: list[Order] = []
         unable = []
-        refused: dict[tuple[str, bool], str | None] = {}
-        """Why the first order about each subject, now or later, cannot be done; None if it can."""
+        refused: dict[Subject, str | None] = {}
+        """Why the last order now about each subject cannot be done; None if it can."""
         for order in self._possible(actor, orders):
-            why = order.unable or order.question or None
+            why = order.unable or order.question or self._contradicts(actor, order.instruction)
             if why is None and order.command is not None:
-                subject = subject_of(order.command), order.when is None
-                if subject not in refused:
-                    breaks_off = any(isinstance(each, GoAroundCommand) for each in commands)
-                    why = None if breaks_off else self._refusal(actor, order.command, order.when)
-                    refused[subject] = why  # Where it goes around, it is not where it was.
-                why = refused[subject]
+                why = self._why_refused(actor, order, commands, refused)
+                if order.when is None:
+                    refused[subject_of(order.command)] = why
             if why is not None:
                 unable.append(why)
                 continue
             accepted.append(order)
-            if order.command is not None:
+            if order.command is not None and not self._keeps(actor, order.instruction):
                 commands[order.command] = order.when
         scripted = tuple(
             ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S, when=when)
             for command, when in commands.items()
         )
-        if refused.get(("surface", True)) or refused.get(("approach", True)):
+        if refused.get("surface") or refused.get("approach"):
             accepted = [each for each in accepted if each.instruction.action not in ON_THE_WAY]
         read_back: list[Instruction | str] = [each.instruction for each in accepted]
         read_back += self._answered(taken, actor)
         decision = Decision(scripted, tuple(read_back), tuple(dict.fromkeys(unable)))
         return self._told(actor, decision)
+
+    def _why_refused(
+        self,
+        actor: str,
+        order: Order,
+        commands: Iterable[Command],
+        refused: Mapping[Subject, str | None],
+    ) -> str | None:
+        """Return why an actor does not do an order; None if it does.
+
+        Who goes around is not where it was. An approach, and a movement on the ground, is refused
+        with what it follows from in the same call; a stop never is.
+        """
+        command = order.command
+        if command is None or any(isinstance(each, GoAroundCommand) for each in commands):
+            return None
+        subject = subject_of(command)
+        is_first = order.when is not None or subject not in refused
+        before = None if is_first else refused[subject]
+        if subject == "surface" and before is not None and not isinstance(command, STOPPING):
+            return before
+        if subject == "approach" and not is_first:
+            return before
+        return self._refusal(actor, command, order.when)
+
+    def _keeps(self, actor: str, told: Instruction) -> bool:
+        """Return whether an actor keeps the limit of an instruction already."""
+        limit, now = self._value(actor, told)
+        if limit is None or now is None:
+            return False
+        return now >= limit if told.bound == "or_more" else told.bound is not None and now <= limit
+
+    def _contradicts(self, actor: str, told: Instruction) -> str | None:
+        """Return what an actor asks that is told to climb to below itself, or to descend to above.
+
+        None if it is not.
+        """
+        level_ft, now_ft = self._value(actor, told)
+        if self._seats.has_person(actor):
+            return None
+        if told.action != "altitude" or level_ft is None or now_ft is None or told.bound:
+            return None
+        is_above = level_ft > now_ft + SAME_LEVEL_FT
+        is_below = level_ft < now_ft - SAME_LEVEL_FT
+        wrong = (told.sense == "climb" and is_below) or (told.sense == "descend" and is_above)
+        if not wrong or told.condition is not None:
+            return None
+        at = self._stations.report_of(actor, "altitude", self._context.radio.phraseology)
+        return f"say again altitude, we are at {at}"
+
+    def _value(self, actor: str, told: Instruction) -> tuple[float | None, float | None]:
+        """Return the level or speed of an instruction, and that at which an actor flies."""
+        if told.action == "altitude":
+            return told.altitude_ft, self._stations.altitude_ft(actor)
+        if told.action == "speed":
+            return told.speed_kt, self._stations.airspeed_kt(actor)
+        return None, None
 
     def _possible(self, actor: str, orders: Sequence[Order]) -> list[Order]:
         """Return orders without the second of two alternatives, or without a first that fails."""
@@ -181,6 +250,8 @@ class Compliance:
     def _told(self, actor: str, decision: Decision) -> Decision:
         """Publish what an actor refuses, and return the decision."""
         for text in decision.unable:
+            if not text.startswith("unable"):
+                continue  # It asks.
             now_ns = self._director.now_ns
             event = Event(t_ns=now_ns, kind="unable", subject=actor, text=text)
             self._context.publish("truth/event", event)
@@ -251,6 +322,13 @@ class Compliance:
             hail = RadioCall(f"{call.id}.contact", frequency_khz, actor, unit, text)
             self._speakers.say_later(hail, TUNING_S)
 
+    def _report(self, call: RadioCall, actor: str, command: ReportCommand) -> None:
+        """Let an actor tell its unit what that wants to hear of."""
+        words = with_digits(command.words, self._context.radio.phraseology)
+        text = self._context.answers.to_unit(actor, call.speaker, words)
+        told = RadioCall(f"{call.id}.report", call.frequency_khz, actor, call.speaker, text)
+        self._speakers.say_later(told, REPORTS_AFTER_S)
+
     def _do_on_condition(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         def act() -> None:
             actor, command = scripted.actor, scripted.command
@@ -258,6 +336,8 @@ class Compliance:
                 return
             if isinstance(command, ContactCommand):
                 self._change_frequency(call, actor, command)
+            elif isinstance(command, ReportCommand):
+                self._report(call, actor, command)
             elif not self._offer(actor, call.id, command):
                 self._world.do(actor, command)
 

@@ -10,9 +10,10 @@ from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.on_air import BackgroundNoise
 from airhilt.sensors.radio.reports import Field, report_of
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
-from airhilt.units import DEGREE, FOOT
+from airhilt.units import DEGREE, FOOT, KNOT
 from airhilt.world.actors.actor import Actor
 from airhilt.world.actors.listening import Listener
+from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import FixedSite, ScenarioSite
 
 TAXIING_M_S = (0.5, 15.0)
@@ -136,6 +137,18 @@ class Stations:
         """Return what an actor says when it is asked for something; None if it does not know."""
         field = Field(self._site_place, self.variation_deg)
         return report_of(self._actors[callsign], asked, field, style)
+
+    def altitude_ft(self, callsign: str) -> float | None:
+        """Return the altitude of an aircraft in flight, in ft; None for others."""
+        body = self._actors[callsign].body
+        return None if body.on_ground else body.state.altitude_m / FOOT
+
+    def airspeed_kt(self, callsign: str) -> float | None:
+        """Return the calibrated airspeed of an aircraft in flight, in kt; None for others."""
+        body = self._actors[callsign].body
+        if body.on_ground or not isinstance(body, Aircraft):
+            return None
+        return body.state.calibrated_airspeed_m_s / KNOT
 
     def on_ground(self, callsign: str) -> bool:
         """Return whether the ground carries an actor."""

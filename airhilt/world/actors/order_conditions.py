@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from typing import cast, get_args
 
 from airhilt.commands import (
     AltitudeCommand,
+    CircuitLeg,
     Command,
     CrossCommand,
     DirectCommand,
@@ -30,6 +32,7 @@ from airhilt.scenario.models import (
     HeightAbove,
     InPhase,
     OffRunways,
+    OnLeg,
     TrackReached,
 )
 
@@ -55,6 +58,11 @@ _VACATED = re.compile(
     r"(?:\s+[0-9]{1,2}(?:\s+(?:left|right|centre))?)?)"
 )
 _ESTABLISHED = re.compile(_WHEN + r"(?:fully\s+)?established(?:\s+.*)?")
+_MILE_FINAL = re.compile(r"(?:on )?(?:a )?([0-9]{1,2}) miles? final")
+_LEG = re.compile(
+    r"(?:(?:on|turning|entering|midfield|the|short|long|left|right|hand) )*"
+    rf"({'|'.join(get_args(CircuitLeg))})(?: leg)?"
+)
 _PASSING = re.compile(
     rf"(?:{_WHEN}(?:at|pass(?:ing|ed)|through|leaving|reach(?:ing|ed)|over|crossing|level(?: at)?)"
     r"|after)\s+(?P<what>.+)"
@@ -89,6 +97,23 @@ def condition_of(words: str, callsign: str, before: Iterable[Command]) -> Condit
     if re.fullmatch(FIX, what):
         return FixPassed(type="fix_passed", actor=callsign, fix=fix_named(what))
     return None
+
+
+def reported(words: str, callsign: str) -> Condition | None:
+    """Return when an actor reports what a unit wants to hear of; None if it never sees that."""
+    final = _MILE_FINAL.fullmatch(words)
+    if final is not None:
+        miles = float(final[1])
+        return OnLeg(type="on_leg", actor=callsign, leg="final", within_nm=miles)
+    leg = _LEG.fullmatch(words)
+    if leg is not None:
+        return OnLeg(type="on_leg", actor=callsign, leg=cast("CircuitLeg", leg[1]))
+    if words.startswith("ready"):
+        standing = ("standing", "lined_up")
+        return InPhase(type="in_phase", actor=callsign, phases=standing)
+    if words.startswith("lined up"):
+        return InPhase(type="in_phase", actor=callsign, phases=("lined_up",))
+    return condition_of(words, callsign, (CrossCommand(action="cross"),))
 
 
 def fix_named(words: str) -> str:

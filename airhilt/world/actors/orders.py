@@ -39,6 +39,7 @@ from airhilt.commands import (
     MachCommand,
     OrbitCommand,
     PushBackCommand,
+    ReportCommand,
     ResumeRouteCommand,
     ResumeSpeedCommand,
     ReturnToFieldCommand,
@@ -64,10 +65,11 @@ from airhilt.world.actors.order_conditions import (
     done,
     fix_named,
     is_departed,
+    reported,
 )
 
 NOTHING_MOVES: frozenset[Action] = frozenset(
-    {"squawk", "ident", "report", "say", "stand_by", "continue_approach", "start_up",
+    {"squawk", "ident", "say", "stand_by", "continue_approach", "start_up",
      "expedite", "visual_separation", "no_speed_restrictions", "wildlife", "wildlife_gone"}
 )  # fmt: skip
 """Actions after which nobody moves: what they ask for is done by reading them back, or by what the
@@ -91,7 +93,7 @@ ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short"})
 """Actions that are part of another clearance in the same call: to taxi, to follow, to land."""
 
 
-Subject = Literal["level", "speed", "track", "approach", "radio", "surface"]
+Subject = Literal["level", "speed", "track", "approach", "radio", "report", "surface"]
 _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
     "level": (
         AltitudeCommand, DriftDownCommand, EmergencyDescentCommand, VerticalRateCommand,
@@ -107,6 +109,7 @@ _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
         ShortApproachCommand, ReturnToFieldCommand,
     ),
     "radio": (ContactCommand,),
+    "report": (ReportCommand,),
 }  # fmt: skip
 """Commands in the air and on the radio, by what they are about; all others are about movement on
 the surface."""
@@ -166,12 +169,21 @@ def orders_of(
             and not _is_turn_at(each)
             and (heading_deg is not None or (climbs and each.heading_deg is None))
         )
-        if each.action in NOTHING_MOVES or is_level or is_part:
+        follows = any(one.instruction.action == "follow" for one in orders)
+        if each.action == "report":
+            orders.append(_report(each, callsign))
+        elif each.action in NOTHING_MOVES or is_level or is_part:
             orders.append(Order(each))
+        elif each.action == "taxi" and follows:
+            orders.append(Order(each))  # Its way is that of who is followed.
         else:
             order = _order(each, bound_runway, level_ft, variation_deg, details)
             if each.condition is not None and order.command is not None:
                 order = _once(each, order.command, callsign, orders)
+            elif isinstance(order.command, ContactCommand) and orders:
+                last = orders[-1].command
+                if isinstance(last, VacateCommand | TurnAtCommand):
+                    order = Order(each, order.command, when=done(last, callsign))
             if heading_deg is not None and isinstance(order.command, TakeOffCommand):
                 track_deg = (heading_deg + variation_deg) % 360.0
                 command = order.command.model_copy(update={"track_deg": track_deg})
@@ -180,6 +192,15 @@ def orders_of(
         if each.action in APPROACHES and each.runway is not None:
             bound_runway = each.runway
     return tuple(orders)
+
+
+def _report(told: Instruction, callsign: str) -> Order:
+    """Return the order to report something; nobody reports what it never sees."""
+    what = told.position or ""
+    when = reported(what, callsign)
+    if told.condition is not None or when is None:
+        return Order(told)
+    return Order(told, ReportCommand(action="report", words=what), when=when)
 
 
 def _heading_after_takeoff(given: Sequence[Instruction]) -> float | None:

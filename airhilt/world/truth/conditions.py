@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+from airhilt.commands import CircuitLeg
 from airhilt.scenario.models import (
     AllOf,
     AnyOf,
@@ -17,6 +18,7 @@ from airhilt.scenario.models import (
     LineBegun,
     LineEnded,
     OffRunways,
+    OnLeg,
     OnRunway,
     PredictedLossOfSeparation,
     SeparationBelow,
@@ -87,6 +89,9 @@ class ConditionCompiler:
                 return self._of_runway(condition)
             case OffRunways(actor=name, has_been_on=has_been_on):
                 return self._of_actor(name, self._off_runways(name, was_on=not has_been_on))
+            case OnLeg(actor=name, leg=leg, within_nm=within_nm):
+                within_m = math.inf if within_nm is None else within_nm * NAUTICAL_MILE
+                return self._of_actor(name, lambda _: self._is_on_leg(name, leg, within_m))
             case AllOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
                 return lambda now_ns: all(_each(tests, now_ns))
@@ -127,6 +132,10 @@ class ConditionCompiler:
                     return time_s is not None and time_s <= within_s
 
         return self._of_actor(name, test)
+
+    def _is_on_leg(self, name: str, leg: CircuitLeg, within_m: float) -> bool:
+        flown = None if self._runways is None else self._runways.leg(name)
+        return flown is not None and flown.leg == leg and flown.before_threshold_m <= within_m
 
     def _off_runways(self, name: str, *, was_on: bool) -> Callable[[Mover], bool]:
         def is_off(body: Mover) -> bool:

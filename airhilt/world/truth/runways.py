@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from airhilt.commands import CircuitLeg
 from airhilt.messages import Arrival, RunwayTruth
-from airhilt.units import FOOT
+from airhilt.units import DEGREE, FOOT
 from airhilt.world.actors.actor import Actor
 from airhilt.world.truth.gaps import Gap, corners, gap, radius_m
 
@@ -49,6 +50,23 @@ closest proximity. The value is this project's own."""
 SIGNIFICANT_M = 500.0 * FOOT
 """Closest distance below which an incursion is of category B, in m: that of a near mid-air
 collision."""
+
+
+DOWNWIND_RAD = 135.0 * DEGREE
+ACROSS_RAD = 45.0 * DEGREE
+ALIGNED_RAD = 20.0 * DEGREE
+"""Least angles between track and runway on downwind, and on base or crosswind, and the greatest on
+final: assumptions."""
+ALIGNED_M = 1500.0
+"""Greatest distance beside the extended centreline on final, in m: an assumption."""
+
+
+class Leg(NamedTuple):
+    """Leg of the circuit that an aircraft flies, and its distance before the threshold."""
+
+    leg: CircuitLeg
+    before_threshold_m: float
+    """Along the runway; negative past the threshold."""
 
 
 class User(NamedTuple):
@@ -195,6 +213,29 @@ class RunwayMonitor:
         ident = self._layout.runway(runway).ident
         along_m, closing_m_s = self._along(self._position(actor), ident)
         return -along_m / closing_m_s if along_m <= 0.0 and closing_m_s > 1.0 else None
+
+    def leg(self, callsign: str) -> Leg | None:
+        """Return the leg of the circuit that an airborne aircraft flies by its track; None: none.
+
+        The circuit is that of the runway that it is bound for.
+        """
+        actor = self._actors[callsign]
+        if actor.body.on_ground or actor.bound_runway is None:
+            return None
+        ident = self._layout.runway(actor.bound_runway).ident
+        position = self._position(actor)
+        past_m, _ = self._along(position, ident)
+        east_m, north_m, sin, cos = self._axes[ident]
+        aside_m = (position.east_m - east_m) * cos - (position.north_m - north_m) * sin
+        angle = abs(math.remainder(actor.body.state.track_rad - math.atan2(sin, cos), math.tau))
+        if angle > DOWNWIND_RAD:
+            return Leg("downwind", -past_m)
+        if angle > ACROSS_RAD:
+            return Leg("base" if past_m < 0.0 else "crosswind", -past_m)
+        is_aligned = angle < ALIGNED_RAD and abs(aside_m) < ALIGNED_M
+        if past_m >= 0.0:
+            return Leg("upwind", -past_m)
+        return Leg("final", -past_m) if is_aligned else None
 
     def collided(self, first: str, second: str) -> None:
         """Record that two actors have collided."""

@@ -228,11 +228,11 @@ def test_a_controller_does_not_correct_what_another_one_has_said() -> None:
 
 
 def test_a_crew_does_what_it_has_misheard_and_reads_that_back() -> None:
-    misheard = Heard("misheard", CLEARANCE["text"].replace("three three zero", "two three zero"))
+    misheard = Heard("misheard", CLEARANCE["text"].replace("three three zero", "three five zero"))
     world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): misheard}).run()
     assert world.hearings("AAL123") == [("clearance", "misheard")]
-    assert [command.altitude_ft for _, command, _ in world.done] == [23_000]
-    assert "two three zero" in world.spoken("readback").text.lower().replace("tree", "three")
+    assert [command.altitude_ft for _, command, _ in world.done] == [35_000]
+    assert "three five zero" in world.spoken("readback").text.lower().replace("tree", "three")
 
 
 def test_a_readback_that_no_line_gives_comes_where_the_scenario_asks_for_it() -> None:
@@ -457,9 +457,9 @@ def test_a_crew_that_reads_takes_a_call_when_its_transcript_comes() -> None:
 
 def test_a_crew_that_reads_does_what_it_reads() -> None:
     world = Reading(CLEARANCE, READBACK, topology="asr_first")
-    world.transcribe("american one two three climb and maintain flight level two three zero", 20.0)
+    world.transcribe("american one two three climb and maintain flight level three five zero", 20.0)
     world.run()
-    assert [command.altitude_ft for _, command, _ in world.done] == [23_000]
+    assert [command.altitude_ft for _, command, _ in world.done] == [35_000]
 
 
 def test_a_crew_may_take_for_its_own_what_it_reads() -> None:

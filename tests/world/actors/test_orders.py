@@ -21,7 +21,7 @@ def test_every_instruction_is_a_command_or_needs_none_or_is_refused_or_asked_abo
 ) -> None:
     (made,) = orders_of([Instruction(action)], None, 0.0, "AAL1")
     outcomes = [made.command is not None, bool(made.unable), bool(made.question)]
-    assert sum(outcomes) == (0 if action in NOTHING_MOVES else 1)
+    assert sum(outcomes) == (0 if action in {*NOTHING_MOVES, "report"} else 1)
 
 
 def test_an_instruction_is_done_at_the_runway_and_with_the_numbers_that_it_names(
@@ -134,6 +134,35 @@ def test_a_condition_on_the_flight_is_waited_for(condition: str, expected: dict[
     waits = order(told).when
     assert waits is not None
     assert waits.model_dump().items() >= ({"actor": "AAL1"} | expected).items()
+
+
+@pytest.mark.parametrize(
+    ("event", "expected"),
+    [
+        ("vacated", {"type": "off_runways"}),
+        ("passing 2 thousand", {"type": "altitude_reached", "altitude_ft": 2000.0}),
+        ("2 mile final", {"type": "on_leg", "leg": "final", "within_nm": 2.0}),
+        ("left base", {"type": "on_leg", "leg": "base"}),
+        ("established", {"type": "in_phase"}),
+        ("over lam", {"type": "fix_passed", "fix": "lam"}),
+    ],
+)
+def test_a_report_is_made_when_its_event_comes(event: str, expected: dict[str, Any]) -> None:
+    told = order(Instruction("report", position=event))
+    assert told.command.model_dump() == {"action": "report", "words": event}
+    assert told.when.model_dump().items() >= expected.items()
+
+
+def test_nobody_promises_a_report_of_what_it_never_sees() -> None:
+    told = order(Instruction("report", position="the bridge in sight"))
+    assert (told.command, told.unable, told.question) == (None, "", "")
+
+
+def test_who_leaves_a_runway_contacts_another_unit_when_off_it() -> None:
+    leave = Instruction("vacate", position="M")
+    call = Instruction("contact", position="ground", frequency_khz=121_700)
+    waits = [each.when for each in orders_of([leave, call], "01", 0.0, "AAL1")]
+    assert [each and each.type for each in waits] == [None, "off_runways"]
 
 
 def test_what_follows_then_waits_for_the_end_of_what_is_before_it() -> None:
