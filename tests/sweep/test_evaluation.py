@@ -243,7 +243,7 @@ def test_who_is_told_is_compared_over_the_same_runs_with_each_response_model() -
         "without_cameras", "without_cameras_nobody",
     }  # fmt: skip
 
-    lost = {"avoided": False, "lost": True, "collision": True}
+    lost: dict[str, Any] = {"avoided": False, "lost": True, "collision": True}
     nobody = [row(crews="ideal", **lost), row(crews="observed")]
     rows = [
         row(recipients="both", crews="ideal"),
