@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript
 from airhilt.scenario.failures import EffectiveLine, apply_failures
-from airhilt.scenario.models import Scenario
+from airhilt.scenario.models import ResponseModel, Scenario
 from airhilt.seats import Seats
 from airhilt.sensors.radio.backends import RadioBackend, TextRadio
 from airhilt.sensors.radio.context import RadioContext
@@ -64,6 +64,7 @@ class World:
         backend: RadioBackend | None = None,
         controllers: dict[str, Any] | None = None,
         strangers: Collection[str] = (),
+        crews: ResponseModel | None = None,
         **radio: Any,
     ) -> None:
         document = load("s02a_nominal").model_dump(mode="json")
@@ -73,6 +74,8 @@ class World:
         document["radio"] |= {"lines": list(lines), **radio}
         document |= {"failures": list(failures), "end_when": [], "conflict": None}
         document["perturbations"] = []
+        if crews is not None:
+            document["crews"] = crews
         self.scenario = Scenario.model_validate(document)
         self.director = Director(Virtual())
         self.published: list[Any] = []

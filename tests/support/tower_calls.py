@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -14,7 +15,7 @@ from shapely import Point
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.record import Logged
 from airhilt.scenario import Scenario
-from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
 from seats import calls, contents
@@ -151,12 +152,17 @@ class Seen:
     callsign: str
     said_s: float
     """Time of the call in s."""
+    until_s: float = math.inf
+    """Time in s up to which its movement is seen."""
 
     @cached_property
     def states(self) -> list[dict[str, Any]]:
         """States from the call on."""
-        every = contents(self.log, f"truth/state/{self.callsign}")
-        return [each for each in every if each["t_ns"] >= self.said_s * SECOND_NS]
+        return [
+            each
+            for each in contents(self.log, f"truth/state/{self.callsign}")
+            if self.said_s <= each["t_ns"] / SECOND_NS <= self.until_s
+        ]
 
     @cached_property
     def answers(self) -> list[dict[str, Any]]:
@@ -180,9 +186,6 @@ class Seen:
     def refuses(self) -> bool:
         return "unable" in self.words
 
-    def answers_at_all(self) -> bool:
-        return bool(self.answers)
-
     def asks(self) -> bool:
         return "say" in self.words
 
@@ -195,6 +198,14 @@ class Seen:
     def reads_back(self, words: list[str]) -> bool:
         return self.says(words) and not self.refuses()
 
+    def reports(self, words: list[str], once: str, **given: Any) -> bool:
+        """Return whether it tells something, after its readback, as soon as it has done that."""
+        for each in self.answers[1:]:
+            seen = replace(self, until_s=each["t_tx_ns"] / SECOND_NS)
+            if all(word in each["text"].lower() for word in words) and seen.check(once, **given):
+                return True
+        return False
+
     def nothing_at_all(self) -> bool:
         return not self.answers
 
@@ -206,6 +217,16 @@ class Seen:
             for each in self.answers
         )
 
+    def monitors(self, khz: int) -> bool:
+        """Return whether it changes to a frequency without a call there."""
+        commands = [
+            json.loads(each["text"])
+            for each in contents(self.log, "truth/event")
+            if each["subject"] == self.callsign and each["kind"] == "command"
+        ]
+        changes = any(each.get("frequency_khz") == khz for each in commands)
+        return changes and not self.leaves_frequency()
+
     # --- on the ground ----------------------------------------------------------------------
 
     def stands_still(self) -> bool:
@@ -213,6 +234,30 @@ class Seen:
 
     def moves(self) -> bool:
         return bool(point(self.states[0]).distance(point(self.states[-1])) > 50.0)
+
+    def goes_on(self) -> bool:
+        """Return whether it stands for a while, and moves at the end."""
+        speeds = [speed_m_s(state) for state in self.states]
+        return min(speeds) < 0.5 and speeds[-1] > 1.0
+
+    def follows(self, other: str) -> bool:
+        """Return whether it moves along the way of another one, behind it."""
+        way = [point(state) for state in contents(self.log, f"truth/state/{other}")]
+        here = point(self.states[-1])
+        nearest = min(range(len(way)), key=lambda number: here.distance(way[number]))
+        is_behind = way[nearest].distance(way[-1]) > 20.0
+        return self.moves() and here.distance(way[nearest]) < 30.0 and is_behind
+
+    def backtracks(self, runway: str) -> bool:
+        """Return whether it taxis along a runway, against its direction."""
+        back_deg = LAYOUT.runway(runway).course_rad / DEGREE + 180.0
+        along = [
+            point(state)
+            for state in self.states
+            if self.on_runway(runway, state)
+            and abs(turned_deg(state["heading_deg"], back_deg)) < 20.0
+        ]
+        return bool(along) and along[0].distance(along[-1]) > 100.0
 
     def on_runway(self, ident: str, state: dict[str, Any]) -> bool:
         strip = LAYOUT.strip_of(ident)
@@ -284,9 +329,28 @@ class Seen:
         wanted = magnetic_deg - 10.7
         return any(abs(turned_deg(track_deg(state), wanted)) < 8.0 for state in self.states[-100:])
 
+    def turns(self) -> bool:
+        """Return whether it flies another way at the end."""
+        return abs(turned_deg(track_deg(self.states[-1]), track_deg(self.states[0]))) > 20.0
+
     def speed(self, kt: float) -> bool:
         last = self.states[-1]["calibrated_airspeed_m_s"] or 0.0
         return bool(abs(last / KNOT - kt) < 10.0)
+
+    def flies_downwind(self, runway: str) -> bool:
+        """Return whether it flies against the direction of a runway, abeam of it."""
+        strip = LAYOUT.strip_of(runway)
+        back_deg = LAYOUT.runway(runway).course_rad / DEGREE + 180.0
+        return any(
+            abs(turned_deg(track_deg(state), back_deg)) < 25.0
+            and point(state).distance(strip.protected_area) < 4.0 * NAUTICAL_MILE
+            for state in self.states
+            if not state["on_ground"]
+        )
+
+    def is_within_nm(self, nm: float) -> bool:
+        """Return whether it is near the airport."""
+        return bool(point(self.states[-1]).distance(Point(0.0, 0.0)) < nm * NAUTICAL_MILE)
 
     def orbits(self) -> bool:
         tracks = [track_deg(state) for state in self.states]

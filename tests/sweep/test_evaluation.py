@@ -227,10 +227,15 @@ def test_what_is_not_avoided_is_told_by_the_worst_that_came_of_it() -> None:
     assert found["paper"] == "-"
 
 
-def test_who_is_told_is_compared_over_the_same_runs() -> None:
+def test_who_is_told_is_compared_over_the_same_runs_with_each_response_model() -> None:
     every = recipients.specifications(Choice(20, {}))
-    told = {name: listed(one.axes["recipients"]) for name, one in every.items() if one.axes}
+    told = {
+        name: listed(one.axes["recipients"])
+        for name, one in every.items()
+        if not name.endswith("nobody")
+    }
     assert told == dict.fromkeys(("without_cameras", "with_cameras"), recipients.TOLD)
+    assert {listed(one.axes["crews"]) for one in every.values()} == {("ideal", "icao", "observed")}
     assert len(listed(every["without_cameras"].seeds)) == 20
     assert len(listed(every["with_cameras"].seeds)) == 3
     assert every["without_cameras"].options["cameras"] is False
@@ -238,18 +243,33 @@ def test_who_is_told_is_compared_over_the_same_runs() -> None:
         "without_cameras", "without_cameras_nobody",
     }  # fmt: skip
 
-    lost = [row(avoided=False, lost=True, collision=True)]
-    rows = [row(recipients="both"), row(recipients="crew", avoided=False, collision=True)]
-    results = Results(NO_CAMERAS, {"without_cameras": rows, "without_cameras_nobody": lost})
-    families, harms = recipients.tables(results)
-    assert text(cells(families, "all", "both")["avoided"]).startswith("1 of 1")
-    assert text(cells(families, "all", "crew")["avoided"]).startswith("0 of 1")
-    found = cells(harms, "s01a_one")
+    lost: dict[str, Any] = {"avoided": False, "lost": True, "collision": True}
+    nobody = [row(crews="ideal", **lost), row(crews="observed")]
+    rows = [
+        row(recipients="both", crews="ideal"),
+        row(recipients="crew", crews="ideal", **lost),
+        row(recipients="crew", crews="observed"),
+    ]
+    results = Results(NO_CAMERAS, {"without_cameras": rows, "without_cameras_nobody": nobody})
+    tables = {table.name: table for table in recipients.tables(results)}
+    families = tables["recipients"]
+    assert text(cells(families, "all", "both", "ideal")["avoided"]).startswith("1 of 1")
+    assert text(cells(families, "all", "crew", "ideal")["avoided"]).startswith("0 of 1")
+    assert text(cells(families, "all", "crew", "observed")["avoided"]) == "-"
+    found = cells(tables["harms_ideal"], "s01a_one")
     assert (found["nobody"], found["crew"], found["both"]) == (
         "collision 1",
         "collision 1",
         "avoided 1",
     )
+    assert tables["harms_observed"].rows == ()
+
+
+def test_one_response_model_alone_is_compared_if_it_is_chosen() -> None:
+    every = recipients.specifications(Choice(1, {"crews": "observed"}))
+    assert {listed(one.axes["crews"]) for one in every.values()} == {("observed",)}
+    results = Results(Choice(1, {"crews": "observed"}), {name: [] for name in every})
+    assert {table.name for table in recipients.tables(results)} == {"recipients", "harms_observed"}
 
 
 def test_severity_modalities_topologies_and_crews_have_tables() -> None:

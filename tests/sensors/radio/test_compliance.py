@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import Any, cast
+from functools import partial
 
 import pytest
 
-from airhilt.commands import TurnCommand
-from airhilt.scenario.models import Channels, ResponseModel, Responses, ScriptedCommand
-from airhilt.sensors.radio.compliance import COMPLY_AFTER_S, Compliance
-from airhilt.sensors.radio.radio_call import RadioCall, Speakers
-from conversations import World, radio_context
+from airhilt.messages import Advisory, Climb, Evidence, Severity
+from airhilt.scenario.models import Channels, ResponseModel, Responses
+from airhilt.sim import Priority
+from airhilt.units import SECOND_NS, seconds_to_ns
+from conversations import CLEARANCE, TOWER, World, line
 
 AT_ONCE = Channels(assistant=Responses(median_s=1.0, sigma=0.0))
 NEVER = Channels(
@@ -21,33 +20,48 @@ NEVER = Channels(
 AFTER_3_S = Channels(
     assistant=Responses(median_s=1.0, sigma=0.0), controller=Responses(median_s=3.0, sigma=0.0)
 )
-TURN = TurnCommand(action="turn", degrees=30.0)
+HELLO = line("hello", 1, "AAL123", TOWER, "Hello.")
 
 
-def done(crews: Channels, *, is_urgent: bool) -> list[tuple[Any, ...]]:
-    """Return what a crew does after a call that it has taken."""
-    world = World()
+def world_of(crews: Channels) -> World:
+    """Return a world in which somebody has called a unit whose controller reacts after 5 s."""
+    prompt = {"reaction_median_s": 5.0, "reaction_sigma": 0.0}
     model = ResponseModel(crews=crews, drivers=AT_ONCE, controllers=AT_ONCE)
-    scenario = world.scenario.model_copy(update={"crews": model})
-    seats = SimpleNamespace(has_person=lambda _actor: False)
-    context = radio_context(
-        director=world.director, world=world, seats=seats, scenario=scenario, seed=1
-    )
-    call = RadioCall("c-1", 119_100, "TWR", "AAL123", "", is_urgent=is_urgent)
-    turns = 2 * (ScriptedCommand(actor="AAL123", command=TURN),)
-    Compliance(context, cast(Speakers, None)).comply(call, "AAL123", turns)
-    world.run()
-    return cast(list[tuple[Any, ...]], world.done)
+    return World(HELLO, CLEARANCE, controllers={TOWER: prompt}, crews=model)
+
+
+def advised(world: World, at_s: float) -> World:
+    """Let the controller be advised that a crew climbs."""
+    up = Climb(sense="climb", altitude_ft=34_000.0, vertical_rate_fpm=1500.0)
+    advisory = Advisory(
+        t_ns=seconds_to_ns(at_s), id="decision-1", revision=0, recipient="ATC",
+        recipients=("ATC",), kind="loss_of_separation", severity=Severity.WARNING,
+        traffic=("AAL123", "DAL456"), message="traffic", t_ready_ns=0,
+        evidence=Evidence(sources=("adsb",)), recommendations={"AAL123": up},
+    )  # fmt: skip
+    take = partial(world.conversation.take, "advisory/ATC", advisory, b"")
+    world.director.at(advisory.t_ns, take, Priority.SCRIPT)
+    return world
 
 
 @pytest.mark.parametrize("crews", [AT_ONCE, NEVER, AFTER_3_S])
 def test_an_ordinary_call_is_obeyed_whatever_the_response_model(crews: Channels) -> None:
-    assert done(crews, is_urgent=False) == 2 * [("AAL123", TURN, COMPLY_AFTER_S)]
+    world = world_of(crews).run_until(60.0)
+    ((callsign, command, at_s),) = world.done
+    assert (callsign, command.altitude_ft) == ("AAL123", 33_000.0)
+    assert at_s == pytest.approx(world.spoken("clearance").t_end_ns / SECOND_NS + 2.0)
 
 
 def test_an_urgent_call_is_obeyed_after_the_time_of_the_response_model() -> None:
-    assert done(AFTER_3_S, is_urgent=True) == 2 * [("AAL123", TURN, 3.0)]
+    world = advised(world_of(AFTER_3_S), 30.0).run_until(60.0)
+    (_, (callsign, command, at_s)) = world.done
+    assert (callsign, command.altitude_ft) == ("AAL123", 34_000.0)
+    urgent = world.spoken("controller.Washington_Centre.1")
+    assert at_s == pytest.approx(urgent.t_end_ns / SECOND_NS + 3.0)
 
 
 def test_who_does_not_respond_to_an_urgent_call_is_told_of_once() -> None:
-    assert done(NEVER, is_urgent=True) == [("AAL123", "does not respond to turn (c-1)", 0.0)]
+    world = advised(world_of(NEVER), 30.0).run_until(60.0)
+    texts = [told for _, told, _ in world.done if isinstance(told, str)]
+    assert texts == ["does not respond to altitude (controller.Washington_Centre.1)"]
+    assert len(world.done) == 2

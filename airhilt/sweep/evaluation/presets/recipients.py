@@ -1,16 +1,19 @@
-"""Who is told: crews, the controller, or both, over all families.
+"""Who is told: crews, the controller, or both, over all families and response models.
 
-The assistant is the same, and so are its advisories; only their recipients differ.
+The assistant is the same, and so are its advisories; their recipients differ, and how people
+respond.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
+from typing import get_args
 
 from pydantic import JsonValue
 
 from airhilt.engine_families import NONE
+from airhilt.scenario.models.responses import ResponseModelName
 from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import REFERENCE, shipped_scenarios
 from airhilt.sweep.evaluation.harms import harms_table
@@ -27,6 +30,9 @@ MOST_SEEDS_WITH_CAMERAS = 3
 """Greatest number of seeds of runs with cameras, which take minutes each."""
 TOLD = ("crew", "controller", "both")
 """Who is told: the values of the option ``recipients``."""
+CREWS = "crews"
+MODELS: tuple[str, ...] = get_args(ResponseModelName)
+"""Response models: the values of the option ``crews``."""
 EVERYTHING = "all"
 """Name of the rows over all families."""
 NOBODY = "nobody"
@@ -34,7 +40,7 @@ NOBODY = "nobody"
 
 
 def specifications(choice: Choice) -> Mapping[str, Specification]:
-    """Return a sweep without an assistant and one over who is told, with and without cameras."""
+    """Return sweeps without an assistant and over who is told, with and without cameras."""
     families = {name: one.family for name, one in shipped_scenarios().items()}
     seen = [name for name, family in families.items() if family in NEED_CAMERAS]
     others = [name for name, family in families.items() if family not in NEED_CAMERAS]
@@ -49,21 +55,29 @@ def _sweeps(
     choice: Choice, name: str, scenarios: Sequence[str], settled: Mapping[str, bool]
 ) -> dict[str, Specification]:
     shared: dict[str, JsonValue] = {"latency": "fixed", **settled}
-    nobody = choice.specification(scenarios, {**shared, "assistant": NONE})
-    told = choice.specification(
-        scenarios, {**shared, "assistant": REFERENCE.name}, {"recipients": TOLD}
+    models = {CREWS: _models(choice)}
+    free = {option: value for option, value in choice.options.items() if option != CREWS}
+    each = Choice(choice.seeds, free)
+    nobody = each.specification(scenarios, {**shared, "assistant": NONE}, models)
+    told = each.specification(
+        scenarios, {**shared, "assistant": REFERENCE.name}, {"recipients": TOLD, **models}
     )
     return {f"{name}_{NOBODY}": nobody, name: told}
 
 
+def _models(choice: Choice) -> tuple[str, ...]:
+    """Return the response models: the one that the user gives, or all."""
+    return (str(choice.options[CREWS]),) if CREWS in choice.options else MODELS
+
+
 def tables(results: Results) -> Sequence[Table]:
-    """Return the comparison by family, and by scenario what became of the runs."""
-    nobody = _rows(results, f"_{NOBODY}")
-    rows = _rows(results, "")
-    baselines = Baselines.of(nobody, ())
-    told = {each: [row for row in rows if row["recipients"] == each] for each in TOLD}
-    harms = harms_table({NOBODY: nobody, **told}, baselines)
-    return _families(results, rows, baselines), harms
+    """Return the comparison by family, and by scenario for each model what became of the runs."""
+    nobody, rows = _rows(results, f"_{NOBODY}"), _rows(results, "")
+    baselines = {
+        model: Baselines.of(_having(nobody, crews=model), ()) for model in _models(results.choice)
+    }
+    harms = [_harms(nobody, rows, model, baselines[model]) for model in baselines]
+    return _families(results, rows, baselines), *harms
 
 
 def _rows(results: Results, ending: str) -> list[Row]:
@@ -71,24 +85,38 @@ def _rows(results: Results, ending: str) -> list[Row]:
     return [row for name in names for row in results.rows.get(f"{name}{ending}", ())]
 
 
-def _families(results: Results, rows: Sequence[Row], baselines: Baselines) -> Table:
+def _having(rows: Sequence[Row], **values: str) -> list[Row]:
+    return [row for row in rows if all(row[name] == value for name, value in values.items())]
+
+
+def _harms(nobody: Sequence[Row], rows: Sequence[Row], model: str, baselines: Baselines) -> Table:
+    told = {each: _having(rows, crews=model, recipients=each) for each in TOLD}
+    table = harms_table({NOBODY: _having(nobody, crews=model), **told}, baselines)
+    named = {"name": f"{table.name}_{model}", "title": f"{table.title} ({model})"}
+    return table.model_copy(update=named)
+
+
+def _families(results: Results, rows: Sequence[Row], baselines: Mapping[str, Baselines]) -> Table:
     names = [*sorted({row["family"] for row in rows}), EVERYTHING]
     groups = [
-        (name, told, own)
-        for name, told in product(names, TOLD)
-        if (own := [row for row in rows if _is_of(row, name, told)])
+        (name, told, model, own)
+        for name, told, model in product(names, TOLD, baselines)
+        if (own := _of_family(_having(rows, crews=model, recipients=told), name))
     ]
     return Table(
         name="recipients",
         title="Who is told",
-        columns=("family", "told", "warned", "avoided", "lead, s", "nuisance, 1/h"),
-        rows=tuple((name, told, *_scores(own, baselines)) for name, told, own in groups),
+        columns=("family", "told", CREWS, "warned", "avoided", "lead, s", "nuisance, 1/h"),
+        rows=tuple(
+            (name, told, model, *_scores(own, baselines[model]))
+            for name, told, model, own in groups
+        ),
         notes=tuple(_notes(results)),
     )
 
 
-def _is_of(row: Row, family: str, told: str) -> bool:
-    return row["recipients"] == told and family in (row["family"], EVERYTHING)
+def _of_family(rows: Sequence[Row], family: str) -> list[Row]:
+    return [row for row in rows if family in (row["family"], EVERYTHING)]
 
 
 def _scores(rows: Sequence[Row], baselines: Baselines) -> tuple[Cell, ...]:
@@ -103,9 +131,10 @@ def _scores(rows: Sequence[Row], baselines: Baselines) -> tuple[Cell, ...]:
 
 def _notes(results: Results) -> Iterator[str]:
     yield (
-        f"Assistant: `{REFERENCE.name}`. Told: whom it tells. Avoided: no harm to the pair, of the "
-        "runs in which it came to harm without an assistant. Nuisance: alerts in an hour of "
-        "nominal traffic. In brackets: 95 % interval."
+        f"Assistant: `{REFERENCE.name}`. Told: whom it tells. Crews: how people respond. Avoided: "
+        "no harm to the pair, of the runs in which it came to harm without an assistant and with "
+        "the same responses. Nuisance: alerts in an hour of nominal traffic. In brackets: 95 % "
+        "interval."
     )
     needing = " and ".join(NEED_CAMERAS)
     if results.choice.has_cameras:
@@ -116,7 +145,7 @@ def _notes(results: Results) -> Iterator[str]:
 
 PRESET = Preset(
     name="recipients",
-    summary="who is told (crew, controller, both), over all families",
+    summary="who is told (crew, controller, both), over all families and response models",
     seeds=3,
     specifications=specifications,
     tables=tables,
