@@ -23,7 +23,7 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.units import KNOT
-from airhilt.world.actors.actor import Act, Unable
+from airhilt.world.actors.actor import Act, Unable, do_nothing
 from airhilt.world.actors.errand import Errand
 from airhilt.world.actors.ground_bodies import GroundBody
 from airhilt.world.actors.taxi_clearances import (
@@ -41,6 +41,7 @@ from airhilt.world.surface.ways import NOSE_MARGIN_M
 if TYPE_CHECKING:
     from airhilt.world.actors.actor import Actor
     from airhilt.world.surface.layout import Hold
+    from airhilt.world.surface.strips import RunwayStrip
 
 AT_STAND_M = 5.0
 """Distance from a stand within which an aircraft is parked on it, in m."""
@@ -259,6 +260,8 @@ class GroundOperations:
         self._require_free()
         if runway is None and taxiway is None:
             runway = None if errand is None else errand.next_runway
+            if runway is None and any(map(self._is_before, self._site.airport.strips.values())):
+                return self._body.stop
             if runway is None:
                 raise Unable("say again, hold short of what")
         if taxiway is not None:
@@ -301,7 +304,7 @@ class GroundOperations:
             crossed = [pair for *pair, _ in airport.intersections if strip in pair]
             if self.is_on(strip) or any(self.is_on(name) for pair in crossed for name in pair):
                 raise Unable(f"unable to hold short of runway {runway}")
-        return _nothing
+        return do_nothing
 
     def _plan_hold_short_on(self, errand: Errand, name: str) -> Act:
         """Return what stops on a way before a runway or a taxiway; it changes the errand alone."""
@@ -313,7 +316,7 @@ class GroundOperations:
                 return partial(errand.hold_short_of_runway, strip)
             past = errand.has_crossed(strip)
             if not past and self._ends_before(errand, strip):
-                return _nothing
+                return do_nothing
             what = f"runway {name}"
         else:
             require_taxiway(airport, name)
@@ -334,7 +337,7 @@ class GroundOperations:
                 raise Unable(f"unable, we cross at {hold.taxiway}")
             return partial(self._cross, errand, strip)
         if errand is not None and strip is not None and errand.is_crossing(strip):
-            return _nothing
+            return do_nothing
         return self._plan_cross_from_hold(runway, at)
 
     def _cross(self, errand: Errand, strip: str | None) -> None:
@@ -516,6 +519,15 @@ class GroundOperations:
             raise Unable(f"unable, not at {at}, we are at {hold.taxiway}")
         return hold
 
+    def _is_before(self, strip: RunwayStrip) -> bool:
+        """Return whether the body is at a hold line of a runway, and points to it."""
+        heading_rad = self._body.state.heading_rad
+        try:
+            hold_beside(self._site, self._here, strip.ends[0].ident, heading_rad)
+        except Unable:
+            return False
+        return not self.is_on(strip.name)
+
     def _ends_before(self, errand: Errand, strip: str) -> bool:
         """Return whether a way ends at a hold line of a runway."""
         reach_m = self._nose_m + 2.0 * NOSE_MARGIN_M
@@ -533,7 +545,3 @@ class GroundOperations:
 
     def _away_m(self, place: Place) -> float:
         return distance_m(self._here, place)
-
-
-def _nothing() -> None:
-    """Do what is done already."""

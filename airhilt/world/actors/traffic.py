@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Literal
 
 from airhilt.geodesy.relative_motion import horizontal_distance_m
@@ -26,21 +26,33 @@ touchdown zone."""
 EMPTY = frozenset(
     {"the", "a", "an", "that", "to", "of", "on", "in", "from", "for", "with", "and", "at", "your",
      "you", "left", "right", "side", "front", "behind", "ahead", "opposite", "next", "number",
-     "one", "has", "is", "passed", "traffic", "aircraft", "airplane", "plane", "final", "short",
-     "mile", "taxiway", "runway"}
+     "one", "has", "is", "passed", "traffic", "aircraft", "airplane", "plane", "short", "mile",
+     "taxiway", "runway"}
 )  # fmt: skip
 """Words around the name of other traffic that do not tell it from others."""
+Passing = Literal["landing", "departing", "passing"]
+"""What traffic does when it passes."""
 DOING: Mapping[str, frozenset[str]] = {
+    "final": frozenset({"en_route", "approach", "orbit", "glide", "flare"}),
     "landing": frozenset({"glide", "flare", "rollout"}),
     "arriving": frozenset({"glide", "flare", "rollout", "vacate"}),
     "arrival": frozenset({"glide", "flare", "rollout", "vacate"}),
     "departing": frozenset({"line_up", "lined_up", "takeoff_roll", "rotate", "climb_out"}),
     "departure": frozenset({"line_up", "lined_up", "takeoff_roll", "rotate", "climb_out"}),
+    "takeoff": frozenset({"line_up", "lined_up", "takeoff_roll", "rotate", "climb_out"}),
     "taxiing": frozenset({"taxi", "vacate", "driving"}),
     "vacating": frozenset({"vacate"}),
 }
 """Phases in which traffic does what a word says."""
 VEHICLES = frozenset({"vehicle", "car", "truck"})
+
+
+def passing(words: Collection[str]) -> Passing:
+    """Return what traffic does when it passes, as words about it say."""
+    phases = frozenset[str]().union(*(DOING[word] for word in words if word in DOING))
+    if "flare" in phases:
+        return "landing"
+    return "departing" if "takeoff_roll" in phases else "passing"
 
 
 class Traffic:
@@ -77,7 +89,7 @@ class Traffic:
             raise Unable(f"say again, which {words}")
         return seen[0]
 
-    def passage(self, other: Actor, does: Literal["landing", "departing", "passing"]) -> Passage:
+    def passage(self, other: Actor, does: Passing) -> Passage:
         """Return a watch over another actor until it has passed."""
         return Passage(self._actors[self._own], other, does)
 
@@ -113,9 +125,7 @@ class Traffic:
 class Passage:
     """A watch over other traffic until it has passed: it has come near, and goes away again."""
 
-    def __init__(
-        self, own: Actor, other: Actor, does: Literal["landing", "departing", "passing"]
-    ) -> None:
+    def __init__(self, own: Actor, other: Actor, does: Passing) -> None:
         self._own = own
         self._other = other
         self._does = does
