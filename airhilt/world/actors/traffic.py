@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Literal
 
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import horizontal_distance_m
+from airhilt.geodesy.wgs84 import Place
 from airhilt.phraseology import parse_call
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.models import VehicleSpec
@@ -17,6 +19,8 @@ from airhilt.world.flight.aircraft import Aircraft
 SIGHT_M = 10_000.0
 """Greatest distance in m at which traffic is seen; assumed: the visibility from which weather
 reports do not count any more (ICAO Annex 3, appendix 3, 4.2.4.4)."""
+STANDS_M_S = 1.0
+"""Ground speed in m/s below which traffic stands."""
 PASSED_BY_M = 50.0
 """Growth of the distance from its least, in m, by which traffic has passed; assumed: more than half
 the length of most airliners."""
@@ -70,11 +74,7 @@ class Traffic:
         Unable
             There is none, or more than one.
         """
-        others = [
-            actor
-            for callsign, actor in self._actors.items()
-            if callsign != self._own and actor.category != "wildlife" and actor.body.ended is None
-        ]
+        others = self._others
         callsigns = [actor.spec.callsign for actor in others]
         by_callsign = words if words in callsigns else parse_call(words, callsigns).callsign
         meant = [
@@ -92,6 +92,23 @@ class Traffic:
     def passage(self, other: Actor, does: Passing) -> Passage:
         """Return a watch over another actor until it has passed."""
         return Passage(self._actors[self._own], other, does)
+
+    def is_on(self, path: Sequence[Place]) -> bool:
+        """Return whether somebody stands so near a path that the actor would run into it."""
+        for other in (actor.body for actor in self._others):
+            lengths_m = self._actors[self._own].body.dimensions.length_m + other.dimensions.length_m
+            stands = other.on_ground and other.state.ground_speed_m_s < STANDS_M_S
+            if stands and _away_m(path, other.state.place) < lengths_m / 2.0:
+                return True
+        return False
+
+    @property
+    def _others(self) -> list[Actor]:
+        return [
+            actor
+            for callsign, actor in self._actors.items()
+            if callsign != self._own and actor.category != "wildlife" and actor.body.ended is None
+        ]
 
     def _sees(self, actor: Actor) -> bool:
         own = self._actors[self._own].body.state
@@ -149,6 +166,15 @@ class Passage:
         if self._does == "departing":
             return not other.on_ground or other.phase in ("takeoff_roll", "rotate")
         return True
+
+
+def _away_m(path: Sequence[Place], place: Place) -> float:
+    """Return the distance of a place from a path."""
+    # Not at the top: scenarios without an airport start without the libraries behind it.
+    from shapely import LineString, Point
+
+    to_local = LocalFrame(place).to_local
+    return float(LineString([to_local(each) for each in path]).distance(Point(0.0, 0.0)))
 
 
 def _words(text: str) -> list[str]:
