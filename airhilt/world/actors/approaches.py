@@ -21,7 +21,7 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.actor import Act, Unable
+from airhilt.world.actors.actor import Act, Unable, do_nothing
 from airhilt.world.actors.circuit import (
     STABLE_CIRCLING_FT,
     STABLE_FT,
@@ -194,7 +194,7 @@ class Approaches:
         if self._phase == "flare":
             raise Unable(f"unable, landing on runway {self._runways.bound_runway}")
         if self._phase == "glide" and self._runways.bound_runway == end.ident:
-            return _nothing
+            return do_nothing
         if kind == "circling" and self._phase in APPROACHING:
             lowest_ft = self._circling_ft()
             if self._height_ft < lowest_ft:
@@ -221,7 +221,8 @@ class Approaches:
         if is_long:
             ahead_m = final.before_m(self._here) - radius_now_m(kind, state)
             least_m = max(least_m, min(LONG_FINAL_M, ahead_m))
-        for gate in self._gates(final, least_m):
+        for longer_m in _longer_m(LONGEST_FINAL_M - least_m):
+            gate = final.pose(least_m + longer_m)
             way = joined([self._pose, gate], radius_now_m(kind, state), last_radius_m(kind, state))
             if turning_rad(way) > sharpest_rad:
                 continue
@@ -231,11 +232,6 @@ class Approaches:
         if sharpest_rad < math.inf:
             raise Unable(f"unable, too close to turn to runway {end.ident}")
         raise Unable(f"unable, too high for runway {end.ident}")
-
-    def _gates(self, final: FinalApproach, least_m: float) -> Iterator[Pose]:
-        yield final.pose(least_m)
-        steps = math.ceil(max(LONGEST_FINAL_M - least_m, 0.0) / GATE_STEP_M)
-        yield from (final.pose(least_m + step * GATE_STEP_M) for step in range(1, steps + 1))
 
     def _descends_well(self, end: RunwayEnd, curve: Sequence[Piece]) -> bool:
         height_m = self._aircraft.state.altitude_m - end.elevation_m
@@ -307,12 +303,13 @@ class Approaches:
         circuit = self._circuit(final, command.side)
         if command.leg == "base" and circuit.is_on("downwind", self._here, state.track_rad):
             circuit = Circuit(final, kind, circuit.side, state, STABLE_CIRCLING_FT)
-        poses = circuit.poses(command.leg, self._here, state.track_rad)
-        pieces = self._through(*poses.values())
-        curve = to_threshold(final, pieces, poses["final"])
-        if not self._descends_well(end, curve):
-            raise Unable(f"unable, too high for the circuit of runway {end.ident}")
-        return self._flown(end, curve, circuit, poses)
+        nearest = circuit.poses(command.leg, self._here, state.track_rad)
+        for longer_m in _longer_m(LONGEST_FINAL_M):
+            poses = _farther(nearest, longer_m)
+            curve = to_threshold(final, self._through(*poses.values()), poses["final"])
+            if self._descends_well(end, curve):
+                return self._flown(end, curve, circuit, poses)
+        raise Unable(f"unable, too high for the circuit of runway {end.ident}")
 
     def _circuit(self, final: FinalApproach, side: Side | None) -> Circuit:
         """Return the circuit to a side, or to that on which the aircraft flies already, or left."""
@@ -397,7 +394,7 @@ class Approaches:
 
     def _plan_return(self) -> Act:
         if self._phase in APPROACHING:
-            return _nothing
+            return do_nothing
         if self._used is not None:
             return self._plan_approach(self._site.runway(self._used), "visual")
         airport = self._site.airport
@@ -485,8 +482,22 @@ class Approaches:
             raise Unable("unable, too low to turn")
 
 
-def _nothing() -> None:
-    """Do what is done already."""
+def _longer_m(most_m: float) -> Iterator[float]:
+    """Yield by how much a final approach is longer than the shortest, from 0 on."""
+    steps = math.ceil(max(most_m, 0.0) / GATE_STEP_M)
+    yield from (step * GATE_STEP_M for step in range(steps + 1))
+
+
+def _farther(poses: Mapping[CircuitLeg, Pose], longer_m: float) -> dict[CircuitLeg, Pose]:
+    """Return poses on the legs of a circuit with base and final so much farther out."""
+    course_rad = poses["final"].course_rad
+    east_m, north_m = longer_m * math.sin(course_rad), longer_m * math.cos(course_rad)
+    return {
+        leg: Pose(pose.east_m - east_m, pose.north_m - north_m, pose.course_rad)
+        if leg in ("base", "final")
+        else pose
+        for leg, pose in poses.items()
+    }
 
 
 def _never() -> bool:

@@ -123,7 +123,7 @@ class Crew:
         self.spec = spec
         self.body = aircraft
         traffic = Traffic(spec.callsign, actors)
-        self.runway_operations = RunwayOperations(aircraft, site)
+        self.runway_operations = RunwayOperations(aircraft, site, traffic)
         self._ground = GroundOperations(TaxiingAircraft(aircraft), site, traffic)
         self._departure = Departure(aircraft, site, self._ground, self.runway_operations)
         self._behind = BehindTraffic(traffic)

@@ -21,7 +21,7 @@ from airhilt.commands import (
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, azimuth, distance_m
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
-from airhilt.world.actors.actor import Act, Unable, do_nothing
+from airhilt.world.actors.actor import Act, Unable
 from airhilt.world.actors.circuit import radius_now_m, turn_radius_m
 from airhilt.world.actors.envelope import LOWEST_HEIGHT_FT, Envelope
 from airhilt.world.actors.runway_operations import APPROACHING
@@ -168,15 +168,17 @@ class EnRouteOperations:
         return partial(aircraft.en_route.hold_altitude, target_m, rate_fpm * FOOT_PER_MINUTE)
 
     def _plan_speed(self, cas_m_s: float) -> Act:
-        if self._aircraft.phase not in APPROACHING:
+        preparation = self._aircraft.procedures.preparation
+        if preparation is None:
             return partial(self._aircraft.en_route.hold_speed, cas_m_s)
-        if self._aircraft.procedures.is_configured:
+        if preparation.is_slowed and cas_m_s > self._aircraft.kind.speeds.approach_kt * KNOT:
             raise Unable("unable, at approach speed")
-        return partial(self._aircraft.procedures.hold_approach_speed, cas_m_s)
+        return partial(preparation.hold, cas_m_s)
 
     def _plan_usual_speed(self) -> Act:
-        if self._aircraft.phase in APPROACHING:
-            return do_nothing
+        preparation = self._aircraft.procedures.preparation
+        if preparation is not None:
+            return partial(preparation.hold, None)
         return partial(
             self._aircraft.en_route.hold_speed, self._aircraft.kind.speeds.cruise_kt * KNOT
         )

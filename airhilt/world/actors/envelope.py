@@ -16,6 +16,7 @@ from airhilt.commands import (
 from airhilt.units import FOOT, KNOT
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.guidance import GuidanceModes
+from airhilt.world.flight.procedures.preparation import flaps_limit_m_s
 
 LOWEST_HEIGHT_FT = 500
 """Lowest height to fly level at, in ft: 14 CFR 91.119(c), but for takeoff and landing."""
@@ -65,9 +66,15 @@ class Envelope:
         kind = self.aircraft.kind
         limits_m_s = GuidanceModes(kind).speed_limits_m_s(self.aircraft.state.altitude_m)
         slowest_kt, greatest_kt = (round(limit / KNOT) for limit in limits_m_s)
+        preparation = self.aircraft.procedures.preparation
+        if preparation is not None:
+            slowest_kt = min(slowest_kt, round(kind.speeds.approach_kt))
+            if preparation.is_configured:
+                greatest_kt = round(flaps_limit_m_s(kind) / KNOT)
         if slowest_kt <= cas_kt <= greatest_kt:
             return None
-        return f"{cas_kt:g} kt: a {kind.name} flies {slowest_kt} to {greatest_kt} kt here"
+        limit = f"minimum {slowest_kt}" if cas_kt < slowest_kt else f"maximum {greatest_kt}"
+        return f"{cas_kt:g} kt, {limit} kt"
 
     def _altitude(self, altitude_ft: float) -> str | None:
         kind = self.aircraft.kind

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
@@ -21,9 +22,9 @@ from airhilt.commands import (
     TurnAtCommand,
     VacateCommand,
 )
-from airhilt.geodesy.wgs84 import Place, distance_m
+from airhilt.geodesy.wgs84 import Place, azimuth, distance_m
 from airhilt.units import KNOT
-from airhilt.world.actors.actor import Act, Unable
+from airhilt.world.actors.actor import Act, Unable, do_nothing
 from airhilt.world.actors.errand import Errand
 from airhilt.world.actors.ground_bodies import GroundBody
 from airhilt.world.actors.taxi_clearances import (
@@ -41,6 +42,7 @@ from airhilt.world.surface.ways import NOSE_MARGIN_M
 if TYPE_CHECKING:
     from airhilt.world.actors.actor import Actor
     from airhilt.world.surface.layout import Hold
+    from airhilt.world.surface.strips import RunwayStrip
 
 AT_STAND_M = 5.0
 """Distance from a stand within which an aircraft is parked on it, in m."""
@@ -71,6 +73,8 @@ class GroundOperations:
         """Where the body stops by itself, in metres along its way."""
         self._gives_way: Passage | None = None
         self._leader: Actor | None = None
+        self._awaited: tuple[FollowCommand, Actor, Place] | None = None
+        """Who is followed once it has passed, and where it was seen last."""
 
     # --- commands -----------------------------------------------------------------------------
 
@@ -113,7 +117,8 @@ class GroundOperations:
 
     def forget(self) -> None:
         """Forget the way, and what was to come after it: something else moves the body now."""
-        self._errand = self._next = self._told = self._gives_way = self._leader = None
+        self._errand = self._next = self._told = self._gives_way = None
+        self._leader = self._awaited = None
 
     def attend(self) -> None:
         """Note how far it has come, and take the next step that is due, or raise `Unable`."""
@@ -124,6 +129,8 @@ class GroundOperations:
             self._gives_way = None
             if self._errand is not None and not self._errand.is_done:
                 self._go_on(self._errand)
+        if self._awaited is not None:
+            self._attend_awaited(*self._awaited)
         errand = self._errand
         if errand is None:
             return
@@ -229,7 +236,7 @@ class GroundOperations:
 
         def hold() -> None:
             self._body.stop()
-            self._next = self._gives_way = self._leader = None
+            self._next = self._gives_way = self._leader = self._awaited = None
 
         return hold
 
@@ -259,6 +266,8 @@ class GroundOperations:
         self._require_free()
         if runway is None and taxiway is None:
             runway = None if errand is None else errand.next_runway
+            if runway is None and any(map(self._is_before, self._site.airport.strips.values())):
+                return self._body.stop
             if runway is None:
                 raise Unable("say again, hold short of what")
         if taxiway is not None:
@@ -301,7 +310,7 @@ class GroundOperations:
             crossed = [pair for *pair, _ in airport.intersections if strip in pair]
             if self.is_on(strip) or any(self.is_on(name) for pair in crossed for name in pair):
                 raise Unable(f"unable to hold short of runway {runway}")
-        return _nothing
+        return do_nothing
 
     def _plan_hold_short_on(self, errand: Errand, name: str) -> Act:
         """Return what stops on a way before a runway or a taxiway; it changes the errand alone."""
@@ -313,7 +322,7 @@ class GroundOperations:
                 return partial(errand.hold_short_of_runway, strip)
             past = errand.has_crossed(strip)
             if not past and self._ends_before(errand, strip):
-                return _nothing
+                return do_nothing
             what = f"runway {name}"
         else:
             require_taxiway(airport, name)
@@ -334,7 +343,7 @@ class GroundOperations:
                 raise Unable(f"unable, we cross at {hold.taxiway}")
             return partial(self._cross, errand, strip)
         if errand is not None and strip is not None and errand.is_crossing(strip):
-            return _nothing
+            return do_nothing
         return self._plan_cross_from_hold(runway, at)
 
     def _cross(self, errand: Errand, strip: str | None) -> None:
@@ -415,9 +424,8 @@ class GroundOperations:
         leader = self._traffic.named(command.whom)
         if not leader.body.on_ground:
             raise Unable(f"unable, {command.whom} is airborne")
-        airport, state = self._site.airport, leader.body.state
-        there = state.latitude_rad, state.longitude_rad
-        way = airport.taxi_route(self._here, there, (), self._body.state.heading_rad)
+        there = leader.body.state.place
+        way = self._site.airport.taxi_route(self._here, there, (), self._body.state.heading_rad)
         errand = self._errand_on([self._here, *way], goes_on=False)
         errand.end_m = max(errand.end_m - self._gap_m(leader), 0.0)
         for name in command.hold_short:
@@ -430,15 +438,38 @@ class GroundOperations:
             self._begin(errand)
             self._leader = leader
 
-        return follow
+        def wait() -> None:
+            self.forget()
+            self._body.stop()
+            self._awaited = command, leader, there
+
+        return follow if self._comes_from_behind([self._here, *way], leader) else wait
+
+    def _comes_from_behind(self, way: Sequence[Place], leader: Actor) -> bool:
+        """Return whether a way comes to the tail of who is followed, and that has left its stand.
+
+        Who is on a stand yet, or comes towards the body, has to pass first.
+        """
+        state, there = leader.body.state, leader.body.state.place
+        reach_m = leader.body.dimensions.length_m / 2.0
+        before = next((place for place in way[::-1] if distance_m(place, there) > reach_m), way[0])
+        is_from_ahead = math.cos(azimuth(there, before) - state.heading_rad) > 0.0
+        return not is_from_ahead and self._stand_at(there) is None
+
+    def _attend_awaited(self, command: FollowCommand, leader: Actor, seen: Place) -> None:
+        """See whether who is to be followed has passed, each time that it has moved on."""
+        if distance_m(leader.body.state.place, seen) > TRAIL_STEP_M:
+            self._awaited = None
+            act = self._plan_follow(command)
+            if act is not None:
+                act()
 
     def _attend_leader(self, errand: Errand, leader: Actor) -> None:
         """Go on behind who is followed; who has left the ground is followed no more."""
         if leader.body.ended is not None or not leader.body.on_ground:
             self._leader = None
             return
-        state = leader.body.state
-        there = state.latitude_rad, state.longitude_rad
+        there = leader.body.state.place
         if distance_m(errand.route_end, there) < TRAIL_STEP_M:
             return
         longer = errand.extended(there)
@@ -516,6 +547,15 @@ class GroundOperations:
             raise Unable(f"unable, not at {at}, we are at {hold.taxiway}")
         return hold
 
+    def _is_before(self, strip: RunwayStrip) -> bool:
+        """Return whether the body is at a hold line of a runway, and points to it."""
+        heading_rad = self._body.state.heading_rad
+        try:
+            hold_beside(self._site, self._here, strip.ends[0].ident, heading_rad)
+        except Unable:
+            return False
+        return not self.is_on(strip.name)
+
     def _ends_before(self, errand: Errand, strip: str) -> bool:
         """Return whether a way ends at a hold line of a runway."""
         reach_m = self._nose_m + 2.0 * NOSE_MARGIN_M
@@ -527,13 +567,11 @@ class GroundOperations:
     @property
     def stand(self) -> str | None:
         """Return the stand on which the body is parked."""
+        return self._stand_at(self._here)
+
+    def _stand_at(self, place: Place) -> str | None:
         airport = self._site.airport
-        near = (name for name in airport.stands if self._away_m(airport.node(name)) < AT_STAND_M)
+        near = (
+            each for each in airport.stands if distance_m(airport.node(each), place) < AT_STAND_M
+        )
         return next(near, None)
-
-    def _away_m(self, place: Place) -> float:
-        return distance_m(self._here, place)
-
-
-def _nothing() -> None:
-    """Do what is done already."""

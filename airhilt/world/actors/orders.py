@@ -67,6 +67,7 @@ from airhilt.world.actors.order_conditions import (
     is_departed,
     reported,
 )
+from airhilt.world.actors.traffic import DOING, passing
 
 NOTHING_MOVES: frozenset[Action] = frozenset(
     {"squawk", "ident", "say", "stand_by", "continue_approach", "start_up",
@@ -81,12 +82,6 @@ BEHIND = re.compile(
     r"(?:\s+(?:has|have|is|passes|lands|departs|vacates)\b.*)?"
 )
 """Condition to wait for other traffic (ICAO Doc 4444, 12.2.7: "behind landing 737")."""
-DOES: Mapping[str, frozenset[str]] = {
-    "landing": frozenset({"landing", "arriving", "arrival", "final"}),
-    "departing": frozenset({"departing", "departure", "takeoff"}),
-}
-"""What other traffic does when it passes, and the words for it."""
-
 WAITING = get_args(BehindCommand.model_fields["command"].annotation)
 """Commands that wait for other traffic."""
 ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short"})
@@ -308,9 +303,9 @@ def _behind_traffic(instruction: Instruction, command: Command) -> Order:
     """Return the order of a command on the ground that waits for other traffic."""
     match = BEHIND.fullmatch(instruction.condition or "")
     whom = "" if match is None else match[1]
-    doing = next((does for does, words in DOES.items() if words & set(whom.split())), "passing")
-    is_traffic = bool(set(whom.split()) - DOES.get(doing, frozenset()))
-    return _behind(instruction, command, whom if is_traffic else "", doing)
+    words = whom.split()
+    is_traffic = any(word not in DOING for word in words)
+    return _behind(instruction, command, whom if is_traffic else "", passing(words))
 
 
 def _behind(instruction: Instruction, command: Command, whom: str, doing: str) -> Order:

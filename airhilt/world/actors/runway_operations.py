@@ -27,6 +27,7 @@ from airhilt.world.actors.taxi_paths import (
     path_short_of,
     stays_short_of,
 )
+from airhilt.world.actors.traffic import Traffic
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
@@ -68,11 +69,12 @@ class RunwayOperations:
     or ScenarioError.
     """
 
-    def __init__(self, aircraft: Aircraft, site: ScenarioSite) -> None:
+    def __init__(self, aircraft: Aircraft, site: ScenarioSite, traffic: Traffic) -> None:
         self._final: FinalApproach | None = None
         """Final approach of the runway that the crew is going to use."""
         self._aircraft = aircraft
         self._site = site
+        self._traffic = traffic
         self._cleared: LandCommand | None = None
         """Landing clearance."""
         self._exit_path: Sequence[Place] = ()
@@ -191,6 +193,8 @@ class RunwayOperations:
             self._go_around_if_too_high(final)
         elif phase == "rollout" and then == "touch_and_go":
             self._aircraft.procedures.take_off_again(self.usual_climb_m())
+        elif phase == "rollout" and self._exit_path and self._traffic.is_on(self._exit_path):
+            self._leave_elsewhere(final)
         elif phase == "standing" and then == "stop_and_go":
             self._cleared = None
             self._aircraft.procedures.take_off(final.runway, self.usual_climb_m())
@@ -251,21 +255,47 @@ class RunwayOperations:
 
     def _exit(self, final: FinalApproach, command: VacateCommand) -> Exit:
         """Return the exit that a command means for an aircraft that lands, or raise `Unable`."""
-        runway, aircraft = final.runway, self._aircraft
-        exits = exits_named(self._site, runway, command.exit, command.side)
-        on_it = aircraft.phase == "rollout"
-        here_m = -final.before_m(self._aircraft.state.place) if on_it else TOUCHDOWN_M
-        approach_m_s = aircraft.kind.speeds.approach_kt * KNOT
-        speed_m_s = aircraft.state.ground_speed_m_s if on_it else approach_m_s
-        braking_m = max(speed_m_s**2 - EXIT_SPEED_M_S**2, 0.0) / (2.0 * FIRM_BRAKING_M_S2)
-        made = [each for each in exits if each.along_m >= here_m + braking_m + speed_m_s]
+        made = self._exits_ahead(final, command)
         if made:
             return made[0]
         where = command.exit or f"{command.side or 'next'} exit".replace(
             "next exit", "the next exit"
         )
-        past = all(each.along_m < here_m for each in exits)
+        exits = exits_named(self._site, final.runway, command.exit, command.side)
+        past = all(each.along_m < self._along_m(final) for each in exits)
         raise Unable(f"unable, past {where}" if past else f"unable, too fast for {where}")
+
+    def _leave_elsewhere(self, final: FinalApproach) -> None:
+        """Leave the runway by the next exit at which nobody stands, or stop on it."""
+        short = None if self._cleared is None else self._cleared.hold_short
+        exits = self._site.airport.exits(final.runway.ident)
+        name = next((e.taxiway for e in exits if e.path == tuple(self._exit_path)), "our exit")
+        free = (
+            each.path
+            for each in self._exits_ahead(final, VacateCommand(action="vacate"))
+            if not self._traffic.is_on(each.path)
+            and (short is None or stays_short_of(self._site, final.runway, short, each.path))
+        )
+        self._exit_path = next(free, ())
+        self._aircraft.procedures.leave_at(self._exit_path)
+        then = "" if self._exit_path else ", stopping on the runway"
+        raise Unable(f"unable {name}, traffic there{then}")
+
+    def _exits_ahead(self, final: FinalApproach, command: VacateCommand) -> list[Exit]:
+        """Return the exits that a command names which an aircraft that lands can still take."""
+        aircraft = self._aircraft
+        approach_m_s = aircraft.kind.speeds.approach_kt * KNOT
+        on_it = aircraft.phase == "rollout"
+        speed_m_s = aircraft.state.ground_speed_m_s if on_it else approach_m_s
+        braking_m = max(speed_m_s**2 - EXIT_SPEED_M_S**2, 0.0) / (2.0 * FIRM_BRAKING_M_S2)
+        first_m = self._along_m(final) + braking_m + speed_m_s
+        exits = exits_named(self._site, final.runway, command.exit, command.side)
+        return [each for each in exits if each.along_m >= first_m]
+
+    def _along_m(self, final: FinalApproach) -> float:
+        """Return how far along the runway a landing aircraft is, or will touch down."""
+        on_it = self._aircraft.phase == "rollout"
+        return -final.before_m(self._aircraft.state.place) if on_it else TOUCHDOWN_M
 
     # --- advisories ---------------------------------------------------------------------------
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Literal
 
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import horizontal_distance_m
+from airhilt.geodesy.wgs84 import Place
 from airhilt.phraseology import parse_call
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.models import VehicleSpec
@@ -17,6 +19,8 @@ from airhilt.world.flight.aircraft import Aircraft
 SIGHT_M = 10_000.0
 """Greatest distance in m at which traffic is seen; assumed: the visibility from which weather
 reports do not count any more (ICAO Annex 3, appendix 3, 4.2.4.4)."""
+STANDS_M_S = 1.0
+"""Ground speed in m/s below which traffic stands."""
 PASSED_BY_M = 50.0
 """Growth of the distance from its least, in m, by which traffic has passed; assumed: more than half
 the length of most airliners."""
@@ -26,21 +30,33 @@ touchdown zone."""
 EMPTY = frozenset(
     {"the", "a", "an", "that", "to", "of", "on", "in", "from", "for", "with", "and", "at", "your",
      "you", "left", "right", "side", "front", "behind", "ahead", "opposite", "next", "number",
-     "one", "has", "is", "passed", "traffic", "aircraft", "airplane", "plane", "final", "short",
-     "mile", "taxiway", "runway"}
+     "one", "has", "is", "passed", "traffic", "aircraft", "airplane", "plane", "short", "mile",
+     "taxiway", "runway"}
 )  # fmt: skip
 """Words around the name of other traffic that do not tell it from others."""
+Passing = Literal["landing", "departing", "passing"]
+"""What traffic does when it passes."""
 DOING: Mapping[str, frozenset[str]] = {
+    "final": frozenset({"en_route", "approach", "orbit", "glide", "flare"}),
     "landing": frozenset({"glide", "flare", "rollout"}),
     "arriving": frozenset({"glide", "flare", "rollout", "vacate"}),
     "arrival": frozenset({"glide", "flare", "rollout", "vacate"}),
     "departing": frozenset({"line_up", "lined_up", "takeoff_roll", "rotate", "climb_out"}),
     "departure": frozenset({"line_up", "lined_up", "takeoff_roll", "rotate", "climb_out"}),
+    "takeoff": frozenset({"line_up", "lined_up", "takeoff_roll", "rotate", "climb_out"}),
     "taxiing": frozenset({"taxi", "vacate", "driving"}),
     "vacating": frozenset({"vacate"}),
 }
 """Phases in which traffic does what a word says."""
 VEHICLES = frozenset({"vehicle", "car", "truck"})
+
+
+def passing(words: Collection[str]) -> Passing:
+    """Return what traffic does when it passes, as words about it say."""
+    phases = frozenset[str]().union(*(DOING[word] for word in words if word in DOING))
+    if "flare" in phases:
+        return "landing"
+    return "departing" if "takeoff_roll" in phases else "passing"
 
 
 class Traffic:
@@ -58,11 +74,7 @@ class Traffic:
         Unable
             There is none, or more than one.
         """
-        others = [
-            actor
-            for callsign, actor in self._actors.items()
-            if callsign != self._own and actor.category != "wildlife" and actor.body.ended is None
-        ]
+        others = self._others
         callsigns = [actor.spec.callsign for actor in others]
         by_callsign = words if words in callsigns else parse_call(words, callsigns).callsign
         meant = [
@@ -77,9 +89,26 @@ class Traffic:
             raise Unable(f"say again, which {words}")
         return seen[0]
 
-    def passage(self, other: Actor, does: Literal["landing", "departing", "passing"]) -> Passage:
+    def passage(self, other: Actor, does: Passing) -> Passage:
         """Return a watch over another actor until it has passed."""
         return Passage(self._actors[self._own], other, does)
+
+    def is_on(self, path: Sequence[Place]) -> bool:
+        """Return whether somebody stands so near a path that the actor would run into it."""
+        for other in (actor.body for actor in self._others):
+            lengths_m = self._actors[self._own].body.dimensions.length_m + other.dimensions.length_m
+            stands = other.on_ground and other.state.ground_speed_m_s < STANDS_M_S
+            if stands and _away_m(path, other.state.place) < lengths_m / 2.0:
+                return True
+        return False
+
+    @property
+    def _others(self) -> list[Actor]:
+        return [
+            actor
+            for callsign, actor in self._actors.items()
+            if callsign != self._own and actor.category != "wildlife" and actor.body.ended is None
+        ]
 
     def _sees(self, actor: Actor) -> bool:
         own = self._actors[self._own].body.state
@@ -113,9 +142,7 @@ class Traffic:
 class Passage:
     """A watch over other traffic until it has passed: it has come near, and goes away again."""
 
-    def __init__(
-        self, own: Actor, other: Actor, does: Literal["landing", "departing", "passing"]
-    ) -> None:
+    def __init__(self, own: Actor, other: Actor, does: Passing) -> None:
         self._own = own
         self._other = other
         self._does = does
@@ -139,6 +166,15 @@ class Passage:
         if self._does == "departing":
             return not other.on_ground or other.phase in ("takeoff_roll", "rotate")
         return True
+
+
+def _away_m(path: Sequence[Place], place: Place) -> float:
+    """Return the distance of a place from a path."""
+    # Not at the top: scenarios without an airport start without the libraries behind it.
+    from shapely import LineString, Point
+
+    to_local = LocalFrame(place).to_local
+    return float(LineString([to_local(each) for each in path]).distance(Point(0.0, 0.0)))
 
 
 def _words(text: str) -> list[str]:

@@ -11,6 +11,7 @@ from airhilt.world.flight.curves import Curve
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final, require_side_step
 from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
+from airhilt.world.flight.procedures.preparation import Preparation
 from airhilt.world.flight.procedures.takeoff import (
     GoAround,
     RejectedTakeoff,
@@ -141,31 +142,19 @@ class ProcedureCommands:
         systems, modes = control.systems, control.modes
         final = Final(runway, systems.kind)
         path, level = modes.curve(curve), modes.altitude_at_usual_rate(altitude_m)
-        before = control.phase
-        is_configured = isinstance(before, Approach | Orbit | Glide) and before.is_configured
-        if not is_configured:
+        preparation = self._preparation()
+        if not preparation.is_configured:
             systems.airframe.clean_up()
-        control.phase = Approach(
-            systems, final, exit_path, path, level, is_configured=is_configured
-        )
+        control.phase = Approach(systems, final, exit_path, path, level, preparation)
         control.guidance = EnRoute(
             systems, path, level, modes.airspeed(systems.kind.speeds.approach_kt * KNOT)
         )
 
     @property
-    def is_configured(self) -> bool:
-        """True on an approach if gear and flaps are lowered for the landing."""
+    def preparation(self) -> Preparation | None:
+        """Preparation of the landing that is approached; None without an approach."""
         phase = self._control.phase
-        return isinstance(phase, Flare) or (
-            isinstance(phase, Approach | Orbit | Glide) and phase.is_configured
-        )
-
-    def hold_approach_speed(self, calibrated_airspeed_m_s: float) -> None:
-        """Fly another airspeed on the approach, until gear and flaps are lowered."""
-        phase = self._control.phase
-        if not isinstance(phase, Approach | Orbit | Glide):
-            raise ValueError(f"hold_approach_speed in phase {phase.name}; expected an approach")
-        phase.hold_speed(calibrated_airspeed_m_s)
+        return phase.preparation if isinstance(phase, Approach | Orbit | Glide) else None
 
     def orbit(self, curve: Curve) -> None:
         """Fly a curve at the present altitude and airspeed, and go on with the approach."""
@@ -227,13 +216,17 @@ class ProcedureCommands:
         """Fly the final approach, from the present altitude."""
         control = self._control
         systems, modes = control.systems, control.modes
-        control.phase = Glide(systems, final, exit_path, control.state.altitude_m)
+        altitude_m, preparation = control.state.altitude_m, self._preparation()
+        control.phase = Glide(systems, final, exit_path, altitude_m, preparation)
         control.guidance = EnRoute(
             systems,
             final,
             modes.altitude_at_usual_rate(final.runway.elevation_m),
             modes.airspeed(systems.kind.speeds.approach_kt * KNOT),
         )
+
+    def _preparation(self) -> Preparation:
+        return self.preparation or Preparation(self._control.systems)
 
     # --- emergencies ------------------------------------------------------------------------
 

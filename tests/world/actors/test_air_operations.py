@@ -317,6 +317,14 @@ def test_an_extended_downwind_goes_on_until_the_turn_to_base_is_told() -> None:
     told(flight, "join", leg="base", runway="01").lands_on("01")
 
 
+@pytest.mark.parametrize("extended_s", mostly_slow([30.0, 60.0, 90.0, 150.0], 60.0))
+def test_however_long_the_downwind_is_it_turns_base_when_told(extended_s: float) -> None:
+    flight = en_route("c172p", before_nm=-0.8, right_m=-1_900.0, altitude_ft=1_000, turned_deg=180)
+    told(flight, "join", leg="downwind", runway="01", side="left").fly(4.0)
+    told(flight, "extend").fly(extended_s)
+    told(told(flight, "join", leg="base", runway="01"), "land", runway="01").lands_on("01")
+
+
 def test_a_short_approach_is_shorter() -> None:
     def seconds(*action: str) -> float:
         flight = en_route(
@@ -471,10 +479,27 @@ def test_another_heading_ends_an_approach_and_its_clearance() -> None:
     assert (flight.aircraft.phase, flight.crew.bound_runway) == ("en_route", None)
 
 
+def test_flaps_let_it_fly_slower_on_final_until_it_slows_down_to_land() -> None:
+    flight = told(on_final("737", 5.5), "land", runway="01").fly(1.0)
+    assert flight.tell("speed", cas_kt=210.0) == "unable 210 kt, maximum 186 kt"
+    assert flight.tell("speed", cas_kt=120.0) == "unable 120 kt, minimum 143 kt"
+    told(flight, "speed", cas_kt=165.0).fly(25.0)
+    assert flight.aircraft.state.calibrated_airspeed_m_s == pytest.approx(165 * KNOT, abs=4.0)
+    flight.lands_on("01")
+
+
+def test_flaps_are_lowered_early_for_a_speed_that_is_too_slow_without_them() -> None:
+    flight = told(en_route("737", before_nm=12.0, right_m=0.0, turned_deg=0.0), "land", runway="01")
+    told(flight, "speed", cas_kt=165.0).fly(60.0)
+    assert flight.aircraft.state.calibrated_airspeed_m_s == pytest.approx(165 * KNOT, abs=4.0)
+    told(flight, "resume_speed").fly(60.0)
+    assert flight.aircraft.state.calibrated_airspeed_m_s == pytest.approx(143 * KNOT, abs=4.0)
+
+
 def test_a_speed_is_flown_on_the_approach_until_the_landing_is_prepared() -> None:
     flight = told(en_route("737", before_nm=12.0, right_m=0.0, turned_deg=0.0), "land", runway="01")
     assert flight.tell("speed", cas_kt=220.0) is None
     flight.fly(60.0)
     assert flight.aircraft.phase == "glide"
     assert flight.aircraft.state.calibrated_airspeed_m_s == pytest.approx(220 * KNOT, abs=3.0)
-    assert on_final("737", 3.0).fly(1.0).tell("speed", cas_kt=220.0) == "unable, at approach speed"
+    assert on_final("737", 3.0).fly(1.0).tell("speed", cas_kt=160.0) == "unable, at approach speed"

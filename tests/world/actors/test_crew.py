@@ -276,8 +276,8 @@ def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
     subtests: pytest.Subtests, aircraft: Aircraft
 ) -> None:
     rows: list[Any] = [
-        (SpeedCommand(action="speed", cas_kt=450), "unable 450 kt: a c172p flies 65 to 127 kt"),
-        (SpeedCommand(action="speed", cas_kt=30), "unable 30 kt"),
+        (SpeedCommand(action="speed", cas_kt=450), "unable 450 kt, maximum 127 kt"),
+        (SpeedCommand(action="speed", cas_kt=30), "unable 30 kt, minimum 65 kt"),
         (AltitudeCommand(action="altitude", altitude_ft=-1_000), "unable -1000 ft: a c172p flies"),
         (AltitudeCommand(action="altitude", altitude_ft=499), "flies at 500 to 13000 ft here"),
         (AltitudeCommand(action="altitude", altitude_ft=13_001), "unable 13001 ft"),

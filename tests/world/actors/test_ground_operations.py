@@ -288,6 +288,12 @@ def test_what_cannot_be_done_from_a_stand_is_said(command: dict[str, Any], why: 
 # --- to hold short ----------------------------------------------------------------------------
 
 
+def test_who_stands_at_a_hold_line_holds_short_there_without_a_name() -> None:
+    ground = Ground.at_hold(site("KDCA"), site("KDCA").airport.hold("01", "A"))
+    ground.tell("hold_short")
+    assert ground.go() == set()
+
+
 @examples(60)
 @given(st.data(), sites)
 def test_told_to_hold_short_of_a_taxiway_on_its_way_it_stops_before_it(

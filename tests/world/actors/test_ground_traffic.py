@@ -170,6 +170,37 @@ def test_it_follows_at_a_distance_and_waits_before_a_runway() -> None:
     assert distance_m((state.latitude_rad, state.longitude_rad), hold.place) < 30.0
 
 
+def test_who_is_to_follow_lets_the_other_leave_its_stand_and_pass_first() -> None:
+    field = Field(
+        AAL1=("737", at_node("gate_b12", 85.0)),
+        OPS1=("follow_me", at_node("fire_station", 85.0)),
+    )
+    field.tell("AAL1", "taxi_to", runway="01")
+    field.tell("OPS1", "follow", whom="the 737")
+    assert not field.run(20.0, lambda: field.phase("OPS1") == "driving")
+    nearest = [1e9]
+
+    def has_come_near() -> bool:
+        nearest[0] = min(nearest[0], field.away_m("AAL1", "OPS1"))
+        return False
+
+    field.run(100.0, has_come_near)
+    state = field.actors["OPS1"].body.state
+    assert nearest[0] > 40.0
+    assert field.away_m("AAL1", "OPS1") < 150.0
+    assert distance_m(state.place, field.site.airport.node("fire_station")) > 100.0
+
+
+def test_it_takes_the_next_exit_where_another_stands_at_its_own() -> None:
+    field = Field(AAL1=("737", on_final(1.0)), AAL2=("737", on_final(4.0)))
+    for callsign in ("AAL1", "AAL2"):
+        field.tell(callsign, "land", runway="01")
+    assert field.run(240.0, lambda: all(field.stands(each)() for each in ("AAL1", "AAL2")))
+    assert field.said == ["unable J, traffic there"]
+    assert field.on("AAL1") == field.on("AAL2") == set()
+    assert field.away_m("AAL1", "AAL2") > 60.0
+
+
 def test_it_gives_way_until_the_other_has_passed() -> None:
     field = Field(
         AAL1=("737", at_node("K/gate_b18", 175.0)),

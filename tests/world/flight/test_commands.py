@@ -18,6 +18,7 @@ from airhilt.world.flight.phases import AircraftSystems
 from airhilt.world.flight.procedure_commands import ProcedureCommands
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.landing import Glide, Rollout
+from airhilt.world.flight.procedures.preparation import Preparation
 from airhilt.world.flight.procedures.taxi import Taxi
 from airhilt.world.flight.route import Arc, Leg, legs_through, turn_between
 from airhilt.world.flight.starting import Start
@@ -145,7 +146,8 @@ def test_a_route_is_flown_left_and_resumed() -> None:
 def test_a_command_ends_an_approach_clean_and_level_on_its_track() -> None:
     flight = Flight()
     final = Final(make_runway("01"), B737)
-    flight.control.phase = Glide(flight.control.systems, final, (), 3_000.0)
+    systems = flight.control.systems
+    flight.control.phase = Glide(systems, final, (), 3_000.0, Preparation(systems))
     flight.en_route.hold_altitude(4_000.0)
     assert flight.phase == "en_route"
     assert "clean_up" in flight.airframe.got

@@ -18,6 +18,7 @@ from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
+from airhilt.world.flight.procedures.preparation import Preparation
 from airhilt.world.flight.procedures.takeoff import (
     ClimbOut,
     GoAround,
@@ -365,13 +366,17 @@ def test_a_drift_down_levels_off_at_an_altitude_that_was_commanded() -> None:
 # --- approach -------------------------------------------------------------------------------
 
 
+def glide_from(systems: Systems, altitude_m: float) -> Glide:
+    return Glide(systems.all, FINAL, (), altitude_m, Preparation(systems.all))
+
+
 @pytest.mark.parametrize(("before_m", "is_configured"), [(11_020.0, False), (10_980.0, True)])
 def test_gear_and_flaps_come_out_where_the_type_has_it(
     before_m: float, is_configured: bool
 ) -> None:
     systems = Systems()
     systems.airframe.answers["main_wheel_height_m"] = 500.0
-    Glide(systems.all, FINAL, (), 500.0).fly(along(-before_m, altitude_m=500.0))
+    glide_from(systems, 500.0).fly(along(-before_m, altitude_m=500.0))
     got, speeds = systems.airframe.got, B737.speeds
     assert got.get("set_gear") == ((1.0,) if is_configured else None)
     assert got.get("set_flaps") == ((B737.landing.flaps,) if is_configured else None)
@@ -382,7 +387,7 @@ def test_gear_and_flaps_come_out_where_the_type_has_it(
 def test_below_the_glide_path_it_keeps_its_altitude_until_the_path_is_met() -> None:
     systems = Systems()
     systems.airframe.answers["main_wheel_height_m"] = 300.0
-    glide = Glide(systems.all, FINAL, (), 400.0)
+    glide = glide_from(systems, 400.0)
     glide.fly(along(-9_000.0, altitude_m=400.0))
     assert systems.autopilot.got["fly"][2] == pytest.approx(0.0)
     glide.fly(along(-9_000.0, altitude_m=395.0))
@@ -395,7 +400,7 @@ def test_below_the_glide_path_it_keeps_its_altitude_until_the_path_is_met() -> N
 def test_below_200_ft_the_glide_path_is_followed_closely(height_m: float, closely: bool) -> None:
     systems = Systems()
     systems.airframe.answers["main_wheel_height_m"] = height_m
-    Glide(systems.all, FINAL, (), 60.0).fly(along(-1_000.0, altitude_m=65.0))
+    glide_from(systems, 60.0).fly(along(-1_000.0, altitude_m=65.0))
     assert systems.autopilot.named["fly"] == {"closely": closely}
 
 
@@ -409,7 +414,7 @@ def test_the_flare_begins_where_its_sink_rate_is_that_of_the_glide_path(
     systems = Systems()
     systems.airframe.answers["main_wheel_height_m"] = height_m + above_m
     state = along(-100.0, altitude_m=20.0, speed_m_s=70.0)
-    assert Glide(systems.all, FINAL, (), 60.0).fly(state).name == name
+    assert glide_from(systems, 60.0).fly(state).name == name
 
 
 def flared(height_m: float, throttle: float = 0.6) -> tuple[Any, ...]:
@@ -478,7 +483,7 @@ def test_once_on_the_glide_path_who_sinks_below_it_is_led_back_up_to_it() -> Non
     systems = Systems()
     systems.airframe.answers["main_wheel_height_m"] = 300.0
     path_m = -FINAL.above_glide_path_m(along(-6_000.0, altitude_m=0.0))
-    glide = Glide(systems.all, FINAL, (), path_m)
+    glide = glide_from(systems, path_m)
 
     def rate_m_s(altitude_m: float) -> float:
         assert glide.fly(along(-6_000.0, altitude_m=altitude_m)) is glide

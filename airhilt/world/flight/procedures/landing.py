@@ -13,6 +13,7 @@ from airhilt.units import FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.guidance import Altitude, AltitudeClearance
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.final import GREATEST_CORRECTION_M_S, Final
+from airhilt.world.flight.procedures.preparation import Preparation
 from airhilt.world.flight.procedures.taxi import Standing, Taxi
 from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
@@ -33,8 +34,8 @@ STANDING_M_S = 0.2
 class Glide(FlightPhase):
     """Flies the localizer and the glide path down to the flare.
 
-    Below the glide path it keeps its altitude until the path is met; at ``configure_m`` from the
-    threshold it lowers the gear, sets the flaps and slows down to approach speed.
+    Below the glide path it keeps its altitude until the path is met. ``preparation`` is that of the
+    way before it.
     """
 
     name = "glide"
@@ -45,34 +46,27 @@ class Glide(FlightPhase):
         final: Final,
         exit_path: Sequence[Place],
         altitude_m: float,
+        preparation: Preparation,
     ) -> None:
         super().__init__(systems)
         self.final = final
         self.exit_path = exit_path
-        kind = systems.kind
+        self.preparation = preparation
         self._intercept = Altitude(
             AltitudeClearance(altitude_m, GREATEST_CORRECTION_M_S),
-            kind.gains.guidance.altitude_per_s,
+            systems.kind.gains.guidance.altitude_per_s,
         )
-        self._configure_m = kind.landing.configure_m
-        self.is_configured = False
-        self._airspeed = kind.speeds.minimum_clean_kt * KNOT
         self._captured = False
 
     def leave_at(self, exit_path: Sequence[Place]) -> None:
         """Leave the runway by another path."""
         self.exit_path = exit_path
 
-    def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
-        """Fly another airspeed until gear and flaps are lowered."""
-        self._airspeed = calibrated_airspeed_m_s
-
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
         systems, final = self._systems, self.final
         flare = systems.kind.landing.flare
-        if not self.is_configured and -final.along_m(state) < self._configure_m:
-            self._configure()
+        airspeed = self.preparation.airspeed_m_s(-final.along_m(state))
         vertical_rate = final.vertical_rate(state)
         if not self._captured:
             level = self._intercept.vertical_rate(state)
@@ -86,18 +80,10 @@ class Glide(FlightPhase):
             state,
             final.turn_rate(state),
             vertical_rate,
-            self._airspeed,
+            airspeed,
             closely=height < CLOSE_HEIGHT_M,
         )
         return self
-
-    def _configure(self) -> None:
-        """Lower the gear, set the flaps, slow down."""
-        kind, airframe = self._systems.kind, self._systems.airframe
-        airframe.set_gear(1.0)
-        airframe.set_flaps(kind.landing.flaps)
-        self._airspeed = kind.speeds.approach_kt * KNOT
-        self.is_configured = True
 
 
 class Flare(FlightPhase):

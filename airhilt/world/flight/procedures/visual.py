@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from airhilt.geodesy.wgs84 import Place
-from airhilt.units import DEGREE, KNOT, wrap_angle
+from airhilt.units import DEGREE, wrap_angle
 from airhilt.world.flight.guidance import Airspeed, Altitude, CurvedPath
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.landing import Glide
+from airhilt.world.flight.procedures.preparation import Preparation
 from airhilt.world.flight.state import AircraftState
 
 BELOW_M = 30.0
@@ -29,11 +30,7 @@ SHORT_FINAL_M = 1000.0
 
 
 class Approach(FlightPhase):
-    """Flies a curve that ends at the threshold, and from its last line on the final approach.
-
-    At ``configure_m`` from the threshold it lowers the gear, sets the flaps and slows down to
-    approach speed.
-    """
+    """Flies a curve that ends at the threshold, and from its last line on the final approach."""
 
     name = "approach"
 
@@ -44,25 +41,18 @@ class Approach(FlightPhase):
         exit_path: Sequence[Place],
         path: CurvedPath,
         level: Altitude,
-        *,
-        is_configured: bool,
+        preparation: Preparation,
     ) -> None:
         super().__init__(systems)
         self.final = final
         self.exit_path = exit_path
         self._path = path
         self._level = level
-        speeds = systems.kind.speeds
-        self._airspeed = (speeds.approach_kt if is_configured else speeds.minimum_clean_kt) * KNOT
-        self.is_configured = is_configured
+        self.preparation = preparation
 
     def leave_at(self, exit_path: Sequence[Place]) -> None:
         """Leave the runway by another path."""
         self.exit_path = exit_path
-
-    def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
-        """Fly another airspeed until gear and flaps are lowered."""
-        self._airspeed = calibrated_airspeed_m_s
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
@@ -73,17 +63,13 @@ class Approach(FlightPhase):
         is_below = final.above_glide_path_m(state, to_go_m) < -BELOW_M
         is_settled = self._is_settled(state) and not is_below
         if curve.is_on_last_piece and (is_settled or to_go_m < SHORT_FINAL_M):
-            return Glide(systems, final, self.exit_path, state.altitude_m).fly(state)
-        kind, airframe = systems.kind, systems.airframe
-        if not self.is_configured and to_go_m < kind.landing.configure_m:
-            self.is_configured = True
-            self._airspeed = kind.speeds.approach_kt * KNOT
-            airframe.set_gear(1.0)
-            airframe.set_flaps(kind.landing.flaps)
+            glide = Glide(systems, final, self.exit_path, state.altitude_m, self.preparation)
+            return glide.fly(state)
+        airspeed = self.preparation.airspeed_m_s(to_go_m)
         vertical_rate = self._level.vertical_rate(state)
         if not is_below:
             vertical_rate = min(vertical_rate, final.vertical_rate(state, to_go_m))
-        systems.autopilot.fly(state, turn_rate, vertical_rate, self._airspeed)
+        systems.autopilot.fly(state, turn_rate, vertical_rate, airspeed)
         return self
 
     def _is_settled(self, state: AircraftState) -> bool:
@@ -117,13 +103,9 @@ class Orbit(FlightPhase):
         self.then.leave_at(exit_path)
 
     @property
-    def is_configured(self) -> bool:
-        """True if gear and flaps are lowered for the landing."""
-        return self.then.is_configured
-
-    def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
-        """Fly another airspeed after the turn, until gear and flaps are lowered."""
-        self.then.hold_speed(calibrated_airspeed_m_s)
+    def preparation(self) -> Preparation:
+        """Preparation of the landing that it goes on with; its speed is flown after the turn."""
+        return self.then.preparation
 
     @property
     def final(self) -> Final:
