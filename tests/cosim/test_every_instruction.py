@@ -100,7 +100,7 @@ TOGETHER: dict[str, list[tuple[list[Instruction], list[Instruction]]]] = {
         (LANDINGS, [*EXITS, Instruction("hold_short", runway="15"), *LAST]),
         (instructions("go_around"), [*LEVELS_AND_HEADINGS, *LAST]),
     ],
-    "circuit": [(CIRCUIT, [*CIRCUIT, *LANDINGS, *instructions("go_around"), *LAST])],
+    "circuit": [(CIRCUIT, [*CIRCUIT, *instructions("cleared_to_land", "go_around"), *LAST])],
     "en_route": [
         (
             LEVELS_AND_HEADINGS,
