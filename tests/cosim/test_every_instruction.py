@@ -82,27 +82,31 @@ LEVELS_AND_HEADINGS = [
     Instruction("altitude", sense="climb", altitude_ft=35_000.0),
 ]
 LANDINGS = [
-    *instructions("cleared_to_land", "touch_and_go", "go_around", "circle"),
+    *instructions("cleared_to_land", "touch_and_go", "circle"),
     Instruction("cleared_to_land", runway="33"),
 ]
 CIRCUIT = instructions("extend", "join", "orbit", "short_approach")
 EXITS = [instruction("vacate"), Instruction("vacate", position="B", turn="left")]
-TOGETHER: dict[str, tuple[list[Instruction], list[Instruction]]] = {
-    "taxi": (TAXI, [*TAXI, *LAST]),
-    "departure": (
-        instructions("line_up", "cleared_for_takeoff", "cancel_takeoff", "backtrack"),
-        [*EXITS, *instructions("hold_position", "stop", "altitude", "heading"), *LAST],
-    ),
-    "rollout": ([*EXITS, *instructions("stop", "backtrack")], [*TAXI, *LAST]),
-    "approach": (
-        LANDINGS,
-        [*LEVELS_AND_HEADINGS, *EXITS, Instruction("hold_short", runway="15"), *LAST],
-    ),
-    "circuit": (CIRCUIT, [*CIRCUIT, *LANDINGS, *LAST]),
-    "en_route": (
-        LEVELS_AND_HEADINGS,
-        [*LEVELS_AND_HEADINGS, instruction("cleared_approach"), *LAST],
-    ),
+TOGETHER: dict[str, list[tuple[list[Instruction], list[Instruction]]]] = {
+    "taxi": [(TAXI, [*TAXI, *LAST])],
+    "departure": [
+        (
+            instructions("line_up", "cleared_for_takeoff", "cancel_takeoff", "backtrack"),
+            [*EXITS, *instructions("hold_position", "stop", "altitude", "heading"), *LAST],
+        )
+    ],
+    "rollout": [([*EXITS, *instructions("stop", "backtrack")], [*TAXI, *LAST])],
+    "approach": [
+        (LANDINGS, [*EXITS, Instruction("hold_short", runway="15"), *LAST]),
+        (instructions("go_around"), [*LEVELS_AND_HEADINGS, *LAST]),
+    ],
+    "circuit": [(CIRCUIT, [*CIRCUIT, *instructions("cleared_to_land", "go_around"), *LAST])],
+    "en_route": [
+        (
+            LEVELS_AND_HEADINGS,
+            [*LEVELS_AND_HEADINGS, *instructions("cleared_approach"), *LAST],
+        )
+    ],
 }
 """First and second instructions that a tower says in one call, by the phase."""
 PHASES = {
@@ -120,7 +124,8 @@ def pairs_of(situation: str) -> list[Sequence[Instruction]]:
     """Return a seeded sample of two instructions that a tower says in one call."""
     every = [
         (first, second)
-        for first, second in itertools.product(*TOGETHER[PHASES.get(situation, "taxi")])
+        for firsts, seconds in TOGETHER[PHASES.get(situation, "taxi")]
+        for first, second in itertools.product(firsts, seconds)
         if first.action != second.action
     ]
     return list(random.Random(situation).sample(every, PAIRS_OF_EACH))
