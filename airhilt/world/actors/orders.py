@@ -166,7 +166,7 @@ def orders_of(
         )
         follows = any(one.instruction.action == "follow" for one in orders)
         if each.action == "report":
-            orders.append(_report(each, callsign))
+            orders.append(_report(each, callsign, orders))
         elif each.action in NOTHING_MOVES or is_level or is_part:
             orders.append(Order(each))
         elif each.action == "taxi" and follows:
@@ -189,10 +189,14 @@ def orders_of(
     return tuple(orders)
 
 
-def _report(told: Instruction, callsign: str) -> Order:
-    """Return the order to report something; nobody reports what it never sees."""
-    what = told.position or ""
-    when = reported(what, callsign)
+def _report(told: Instruction, callsign: str, before: Sequence[Order]) -> Order:
+    """Return the order to report something; nobody reports what it never sees.
+
+    Who is told a heading ``before`` is established on that.
+    """
+    what, last = told.position or "", before[-1].command if before else None
+    is_on_heading = what == "established" and isinstance(last, TrackCommand)
+    when = done(last, callsign) if last and is_on_heading else reported(what, callsign)
     if told.condition is not None or when is None:
         return Order(told)
     return Order(told, ReportCommand(action="report", words=what), when=when)
