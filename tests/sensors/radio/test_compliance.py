@@ -27,7 +27,7 @@ TURN = TurnCommand(action="turn", degrees=30.0)
 def done(crews: Channels, *, is_urgent: bool) -> list[tuple[Any, ...]]:
     """Return what a crew does after a call that it has taken."""
     world = World()
-    model = ResponseModel(crews=crews, drivers=AT_ONCE, controllers=AT_ONCE)
+    model = ResponseModel(crews=crews, drivers=AT_ONCE, controllers=AT_ONCE.assistant)
     scenario = world.scenario.model_copy(update={"crews": model})
     seats = SimpleNamespace(has_person=lambda _actor: False)
     context = radio_context(
