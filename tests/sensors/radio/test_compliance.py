@@ -11,7 +11,7 @@ from airhilt.commands import TurnCommand
 from airhilt.scenario.models import Channels, ResponseModel, Responses, ScriptedCommand
 from airhilt.sensors.radio.compliance import COMPLY_AFTER_S, Compliance
 from airhilt.sensors.radio.radio_call import RadioCall, Speakers
-from conversations import World, radio_context
+from conversations import CLEARANCE, KHZ, READBACK, World, radio_context
 
 AT_ONCE = Channels(assistant=Responses(median_s=1.0, sigma=0.0))
 NEVER = Channels(
@@ -51,3 +51,13 @@ def test_an_urgent_call_is_obeyed_after_the_time_of_the_response_model() -> None
 
 def test_who_does_not_respond_to_an_urgent_call_is_told_of_once() -> None:
     assert done(NEVER, is_urgent=True) == [("AAL123", "does not respond to turn (c-1)", 0.0)]
+
+
+def test_a_crew_that_does_not_know_the_frequency_of_a_unit_asks_for_it_and_stays() -> None:
+    contact = {"action": "contact", "unit": "Nowhere Ground"}
+    commands = [*CLEARANCE["commands"], {"actor": "AAL123", "command": contact}]
+    world = World({**CLEARANCE, "commands": commands}, READBACK).run_until(60.0)
+    question = world.spoken("clearance.contact")
+    assert question.text == "Washington Centre, American one twenty three, say frequency."
+    assert question.frequency_khz == KHZ
+    assert [command.action for _, command, _ in world.done] == ["altitude"]
