@@ -78,6 +78,19 @@ def controlling_units(scenario: Scenario) -> dict[str, tuple[int, ...]]:
     return {unit: tuple(on) for unit, on in found.items()}
 
 
+def tunable_units(scenario: Scenario) -> list[str]:
+    """Return the units on some frequency: of radio lines, or of the scenario's controllers."""
+    actors = {actor.callsign for actor in scenario.actors}
+    named = [name for line in scenario.radio.lines for name in (line.speaker, line.to) if name]
+    named += [unit for unit, each in scenario.controllers.items() if each.frequencies_khz]
+    return [name for name in dict.fromkeys(named) if name not in actors]
+
+
+def is_named_by(words: str, unit: str) -> bool:
+    """Return whether words, such as "ground", name a unit."""
+    return set(words.casefold().split()) <= set(unit.casefold().split())
+
+
 def unsayable_lines(scenario: Scenario) -> Set[str]:
     """Return the ids of the lines whose condition can never come true.
 

@@ -52,7 +52,9 @@ def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(
     table = [
         "clearance.repeat-1", "clearance.say-again-12", "clearance.readback",
         "readback.correction", "readback.correction.readback", "stuck-microphone.AAL123.9.119100",
-        "clearance.Repeat-1",
+        "clearance.Repeat-1", "arrival.AAL123.1", "unable.AAL123.1", "clearance.contact",
+        "clearance.end", "readback.confirmation-1.request", "seat.AAL123.1",
+        "microphone.AAL123.1",
     ]  # fmt: skip
     for name in table:
         with subtests.test(name):
@@ -164,7 +166,12 @@ def test_a_controller_is_of_a_unit_with_a_frequency_that_is_its_own(
             "controllers/Approach/frequencies_khz/0: 124720 kHz is no channel",
         ),
         ({"Washington Tower": {"compliance": 1.5}}, "controllers/Washington Tower/compliance"),
-        ({"Washington Tower": {"acts_on": ["weather"]}}, "controllers/Washington Tower/acts_on/0"),
+        (
+            {"Washington Tower": {"acts_on": ["weather"]}},
+            'controllers/Washington Tower/acts_on/0: found "weather", expected '
+            "'loss_of_separation', 'readback_mismatch', 'runway_conflict', 'clarification' or "
+            "'conflict_alert'",
+        ),
     ]
     for controllers, expected in table:
         with subtests.test(str(controllers)):

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import typing
 from typing import Literal
 
 from pydantic import Field
 
-from airhilt.messages import AdvisoryKind
 from airhilt.quantities import FrequencyKhz, Share
 from airhilt.scenario.models.actors import Reactions
 
-Alerting = AdvisoryKind | Literal["conflict_alert"]
+Alerting = Literal[
+    "loss_of_separation", "readback_mismatch", "runway_conflict", "clarification", "conflict_alert"
+]
 """Alert that a controller acts on: a kind of advisory, or the conflict alert of the world."""
 
 
@@ -21,13 +23,7 @@ class Controller(Reactions):
     """
 
     acts_on: tuple[Alerting, ...] = Field(
-        default=(
-            "loss_of_separation",
-            "readback_mismatch",
-            "runway_conflict",
-            "clarification",
-            "conflict_alert",
-        ),
+        default=typing.get_args(Alerting),
         description="kinds of advisories that it acts on, and conflict_alert for that of the world",
     )
     frequencies_khz: tuple[FrequencyKhz, ...] = Field(

@@ -26,8 +26,8 @@ ResponseModelName = Literal["ideal", "icao", "observed"]
 class Responses(Model):
     """Responses on one channel: a lognormal delay, and the shares of those who do not do as told.
 
-    The rest does as told, in time. Where a share means nothing, such as the wrong sense of a
-    takeoff that is cancelled, those people do as told.
+    The rest does as told, in time. So do those who are too slow or go the wrong way, where they
+    are told anything but to climb or to descend.
     """
 
     median_s: Number = Field(ge=0.0, le=120.0, description="of a first response")
@@ -78,11 +78,12 @@ class ResponseModel(Model):
 
     crews: Channels
     drivers: Channels
-    controllers: Channels
+    controllers: Responses
+    """To advisories and to the conflict alert alike."""
 
 
 def _is_named(given: object) -> Literal["name", "model"]:
-    return "name" if isinstance(given, str) else "model"
+    return "model" if isinstance(given, Mapping | ResponseModel) else "name"
 
 
 NamedOrOwnModel = Annotated[
@@ -110,7 +111,7 @@ SLOW_CONTROLLER_S = 7.3
 CONTROLLER_SIGMA = 0.35
 """Sigma of the delays of controllers: assumed."""
 
-AT_ONCE = Channels(assistant=Responses(median_s=PROMPT_S, sigma=0.0))
+AT_ONCE = Responses(median_s=PROMPT_S, sigma=0.0)
 OBSERVED_RA = Responses(
     median_s=FIRST_RESPONSE_S, no_response=0.16, late=0.11, weak=0.11, opposite=0.24
 )
@@ -127,7 +128,9 @@ OBSERVED_CALL = Responses(median_s=CALL_S, no_response=0.02, late=0.10)
 """Assumed. What a crew mishears is no matter of this model: see docs/radio.md."""
 
 RESPONSE_MODELS: Mapping[ResponseModelName, ResponseModel] = {
-    "ideal": ResponseModel(crews=AT_ONCE, drivers=AT_ONCE, controllers=AT_ONCE),
+    "ideal": ResponseModel(
+        crews=Channels(assistant=AT_ONCE), drivers=Channels(assistant=AT_ONCE), controllers=AT_ONCE
+    ),
     "icao": ResponseModel(
         crews=Channels(
             assistant=Responses(median_s=FIRST_RESPONSE_S), controller=Responses(median_s=CALL_S)
@@ -135,7 +138,7 @@ RESPONSE_MODELS: Mapping[ResponseModelName, ResponseModel] = {
         drivers=Channels(
             assistant=Responses(median_s=DRIVER_S), controller=Responses(median_s=CALL_S)
         ),
-        controllers=Channels(assistant=Responses(median_s=CONTROLLER_S, sigma=CONTROLLER_SIGMA)),
+        controllers=Responses(median_s=CONTROLLER_S, sigma=CONTROLLER_SIGMA),
     ),
     "observed": ResponseModel(
         crews=Channels(assistant=OBSERVED_ASSISTANT, ra=OBSERVED_RA, controller=OBSERVED_CALL),
@@ -143,11 +146,7 @@ RESPONSE_MODELS: Mapping[ResponseModelName, ResponseModel] = {
             assistant=Responses(median_s=DRIVER_S, no_response=0.10, late=0.15),
             controller=OBSERVED_CALL,
         ),
-        controllers=Channels(
-            assistant=Responses(
-                median_s=SLOW_CONTROLLER_S, sigma=CONTROLLER_SIGMA, no_response=0.10
-            )
-        ),
+        controllers=Responses(median_s=SLOW_CONTROLLER_S, sigma=CONTROLLER_SIGMA, no_response=0.10),
     ),
 }
 """Response models by name. ``ideal`` and ``icao`` obey always. The shares of drivers and of

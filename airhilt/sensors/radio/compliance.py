@@ -27,6 +27,7 @@ from airhilt.phraseology.spoken_actions import with_digits
 from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
+from airhilt.sensors.radio.stations import SAY_FREQUENCY
 from airhilt.world.actors.orders import ON_THE_WAY, Order, Subject, orders_of, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
@@ -309,6 +310,12 @@ class Compliance:
     def _change_frequency(self, call: RadioCall, actor: str, command: ContactCommand) -> None:
         """Let an actor leave its frequency, and call the unit on another one."""
         frequency_khz = self._stations.tune(actor, command.unit, command.frequency_khz)
+        if frequency_khz is None:
+            unit = self._stations.unit_on(call.frequency_khz)
+            text = self._context.answers.to_unit(actor, unit or "Station", SAY_FREQUENCY)
+            question = RadioCall(f"{call.id}.contact", call.frequency_khz, actor, unit, text)
+            self._speakers.say_later(question)
+            return
         event = Event(
             t_ns=self._director.now_ns,
             kind="command",

@@ -164,13 +164,17 @@ class RadioConversation:
                 needed.once_taken_by(call.speaker, after_gap)
                 return
         orders = any(scripted.actor != call.speaker for scripted in call.commands)
-        if not orders and self._policy.has_question(call.speaker, call.addressed):
+        if not orders and self._is_open(call.speaker, call.addressed):
             self._context.director.after(GAP_S, partial(self._due, line))
         elif self._seats.has_person(call.speaker):
             self._person_calls.tell(call)
             self._compliance.carry_out(call, call.speaker)
         else:
             self._speakers.say(call)
+
+    def _is_open(self, one: str, other: str | None) -> bool:
+        """Return whether one of two waits for the other to repeat or to read back something."""
+        return self._policy.has_question(one, other) or self._controllers.awaits_answer(one, other)
 
     def say_unable(self, callsign: str, why: str) -> None:
         """Let an actor tell the unit that it is with what it cannot do any more, and why."""

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
 from airhilt.phraseology.numbers import Style
+from airhilt.scenario.conversation import is_named_by
 from airhilt.scenario.models import Scenario
 from airhilt.sensors.radio.on_air import BackgroundNoise
 from airhilt.sensors.radio.reports import Field, report_of
@@ -20,6 +21,8 @@ TAXIING_M_S = (0.5, 15.0)
 """Ground speeds in m/s between which somebody on the ground taxies or drives: an assumption."""
 GROUND_ANTENNA_M = 50.0 * FOOT
 """Height of the units' antenna in m, the same as that of an ADS-B receiver by default."""
+SAY_FREQUENCY = "say frequency"
+"""Words of an actor that does not know the frequency of a unit."""
 
 
 class Stations:
@@ -69,12 +72,16 @@ class Stations:
 
     def unknown(self, unit: str | None, frequency_khz: int | None) -> str | None:
         """Return what an actor asks that does not know the frequency of a unit; None if it does."""
-        return "say frequency" if self._frequency(unit, frequency_khz) is None else None
+        return SAY_FREQUENCY if self._frequency(unit, frequency_khz) is None else None
 
-    def tune(self, actor: str, unit: str | None, frequency_khz: int | None) -> int:
-        """Take an actor from its frequencies to that of a unit, or a given one; return that."""
+    def tune(self, actor: str, unit: str | None, frequency_khz: int | None) -> int | None:
+        """Take an actor from its frequencies to that of a unit, or a given one.
+
+        Return that frequency. None: it is not known, and the actor stays.
+        """
         chosen_khz = self._frequency(unit, frequency_khz)
-        assert chosen_khz is not None  # It was asked for before.
+        if chosen_khz is None:
+            return None
         for names in self._on.values():
             names.pop(actor, None)
         self._on.setdefault(chosen_khz, {})[actor] = None
@@ -84,10 +91,9 @@ class Stations:
         """Return a given frequency, or that of a unit that is named by words of its name."""
         if frequency_khz is not None or unit is None:
             return frequency_khz
-        words = set(unit.casefold().split())
         for khz, names in self._on.items():
             units = (name for name in names if name not in self._actors)
-            if any(words <= set(name.casefold().split()) for name in units):
+            if any(is_named_by(unit, name) for name in units):
                 return khz
         return None
 

@@ -179,5 +179,5 @@ def reaction_models(scenario: Scenario, seed: int) -> dict[str, ReactionModel]:
 
 def controller_reactions(scenario: Scenario, unit: str, own: Reactions, seed: int) -> ReactionModel:
     """Return the reaction model of the controller of a unit."""
-    responses = scenario.response_model.controllers
-    return ReactionModel(unit, responses, own, response_seed(scenario, seed))
+    channels = Channels(assistant=scenario.response_model.controllers)
+    return ReactionModel(unit, channels, own, response_seed(scenario, seed))

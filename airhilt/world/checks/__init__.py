@@ -13,6 +13,11 @@ from airhilt.world.checks.actors import (
     surface_wind,
     unfit_actors,
 )
+from airhilt.world.checks.instructions import (
+    unknown_fixes,
+    unknown_phases,
+    unknown_units,
+)
 from airhilt.world.checks.names import (
     dangling_references,
     misplaced_perturbations,
@@ -25,6 +30,7 @@ from airhilt.world.checks.radio import (
     impossible_lines,
     unsaid_lines,
 )
+from airhilt.world.checks.responses import meaningless_shares
 from airhilt.world.site import ScenarioSite
 
 __all__ = ["check"]
@@ -65,15 +71,23 @@ def _problems(scenario: Scenario) -> Iterator[Problem]:
     except ScenarioError as error:
         yield from (Problem("scene/airport", text) for text in error.problems)
         return
+    yield from meaningless_shares(scenario)
     yield from unfit_actors(scenario, site)
     yield from altitudes_below_ground(scenario, site)
     yield from unknown_places(scenario, site)
+    yield from unknown_fixes(scenario, site)
     yield from dangling_references(scenario)
+    yield from unknown_phases(scenario)
+    yield from unknown_units(scenario)
     yield from impossible_lines(scenario)
     yield from impossible_controllers(scenario)
     yield from misdirected_commands(scenario)
     if site.layout is not None:
         yield from surface_wind(scenario)
         yield from missing_ways(scenario, site, site.layout)
+        # Not at the top: scenarios without an airport start without the libraries behind it.
+        from airhilt.world.checks.taxiways import unknown_taxiways
+
+        yield from unknown_taxiways(scenario, site.layout)
     yield from idle_failures(scenario)
     yield from misplaced_perturbations(scenario)

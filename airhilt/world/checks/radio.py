@@ -22,8 +22,8 @@ from airhilt.scenario.problems import Problem, unknown
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 
 GENERATED_ID = re.compile(
-    r"^(?:stuck-microphone|controller|ra)\.|"
-    r"\.(?:readback|correction|(?:repeat|say-again|confirmation)-[0-9]+)$",
+    r"^(?:stuck-microphone|microphone|seat|controller|ra|arrival|unable|advisory)\.|"
+    r"\.(?:readback|correction|request|contact|end|(?:repeat|say-again|confirmation)-[0-9]+)$",
     re.IGNORECASE,
 )
 """Beginnings and endings of the ids of calls that are not in the script (docs/radio.md)."""
@@ -42,8 +42,10 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
             yield Problem(
                 f"{path}/id",
                 f"found {line.id!r}, which is how calls that are not in the script are named; "
-                "expected an id that neither begins with stuck-microphone., controller. or ra. "
-                "nor ends with .readback, .correction, .repeat-1, .say-again-1 or .confirmation-1",
+                "expected an id that neither begins with stuck-microphone., microphone., seat., "
+                "controller., ra., arrival., unable. or advisory., nor ends with .readback, "
+                ".correction, .request, .contact, .end, .repeat-1, .say-again-1 or "
+                ".confirmation-1",
             )
         if line.frequency_khz not in CHANNELS_KHZ:
             yield Problem(f"{path}/frequency_khz", _no_channel(line.frequency_khz))

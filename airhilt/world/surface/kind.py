@@ -38,6 +38,7 @@ from airhilt.world.mover import Creature, Driven, Mover
 from airhilt.world.site import ScenarioSite
 
 Category = Literal["vehicle", "wildlife"]
+VehiclePhase = Literal["standing", "driving", "stopping"]
 M = TypeVar("M", bound=Mover)
 
 BODY = "body"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from pydantic import BaseModel, ConfigDict, PositiveFloat
 
@@ -17,14 +17,17 @@ from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.shapes.vehicles import van
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
-from airhilt.world.surface.kind import DrivenKind, vehicle_appearance, within_reach
+from airhilt.world.surface.kind import (
+    DrivenKind,
+    VehiclePhase,
+    vehicle_appearance,
+    within_reach,
+)
 
 STANDING_M_S = 1e-6
 """Speed below which a vehicle stands, in m/s."""
 SAME_END_M = 1e-6
 """Distance below which a vehicle is at the end of its path, in m."""
-
-VehiclePhase = Literal["standing", "driving", "stopping"]
 
 
 class VehicleKind(DrivenKind, BaseModel):

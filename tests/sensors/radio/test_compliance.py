@@ -10,7 +10,7 @@ from airhilt.messages import Advisory, Climb, Evidence, Severity
 from airhilt.scenario.models import Channels, ResponseModel, Responses
 from airhilt.sim import Priority
 from airhilt.units import SECOND_NS, seconds_to_ns
-from conversations import CLEARANCE, TOWER, World, line
+from conversations import CLEARANCE, KHZ, READBACK, TOWER, World, line
 
 AT_ONCE = Channels(assistant=Responses(median_s=1.0, sigma=0.0))
 NEVER = Channels(
@@ -26,7 +26,7 @@ HELLO = line("hello", 1, "AAL123", TOWER, "Hello.")
 def world_of(crews: Channels) -> World:
     """Return a world in which somebody has called a unit whose controller reacts after 5 s."""
     prompt = {"reaction_median_s": 5.0, "reaction_sigma": 0.0}
-    model = ResponseModel(crews=crews, drivers=AT_ONCE, controllers=AT_ONCE)
+    model = ResponseModel(crews=crews, drivers=AT_ONCE, controllers=AT_ONCE.assistant)
     return World(HELLO, CLEARANCE, controllers={TOWER: prompt}, crews=model)
 
 
@@ -65,3 +65,13 @@ def test_who_does_not_respond_to_an_urgent_call_is_told_of_once() -> None:
     texts = [told for _, told, _ in world.done if isinstance(told, str)]
     assert texts == ["does not respond to altitude (controller.Washington_Centre.1)"]
     assert len(world.done) == 2
+
+
+def test_a_crew_that_does_not_know_the_frequency_of_a_unit_asks_for_it_and_stays() -> None:
+    contact = {"action": "contact", "unit": "Nowhere Ground"}
+    commands = [*CLEARANCE["commands"], {"actor": "AAL123", "command": contact}]
+    world = World({**CLEARANCE, "commands": commands}, READBACK).run_until(60.0)
+    question = world.spoken("clearance.contact")
+    assert question.text == "Washington Centre, American one twenty three, say frequency."
+    assert question.frequency_khz == KHZ
+    assert [command.action for _, command, _ in world.done] == ["altitude"]

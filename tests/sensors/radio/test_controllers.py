@@ -208,19 +208,53 @@ def test_who_follows_a_resolution_advisory_is_told_nothing_until_it_is_clear_of_
 
 # --- what they decide by ---------------------------------------------------------------------
 
+WRONG = {**READBACK, "text": "Climb and maintain flight level three five zero, American 123."}
+MISMATCH: dict[str, Any] = {
+    "kind": "readback_mismatch",
+    "evidence": Evidence(sources=("radio",), radio_ids=("clearance", "readback")),
+}
+ROGER = line("roger", 24, TOWER, "AAL123", "American one two three, roger.")
+
 
 def test_what_was_read_back_wrongly_is_said_again_and_done_instead() -> None:
-    wrong = {
-        **READBACK,
-        "text": "Climb and maintain flight level three five zero, American one two three.",
-    }
-    evidence = Evidence(sources=("radio",), radio_ids=("clearance", "readback"))
-    mismatch = advisory(kind="readback_mismatch", evidence=evidence)
-    world = Tower(CLEARANCE, wrong).gets(mismatch).run_until(60.0)
+    world = Tower(CLEARANCE, WRONG).gets(advisory(**MISMATCH)).run_until(60.0)
     ((addressed, text),) = world.told()
     assert addressed == "AAL123"
     assert text.startswith("American one twenty three, negative, I say again, climb")
     assert world.done[-1][1].altitude_ft == 33_000
+
+
+def test_what_was_read_back_rightly_since_is_not_corrected_by_a_new_advisory() -> None:
+    world = Tower(CLEARANCE, WRONG).gets(advisory(**MISMATCH))
+    world.gets(advisory(at_s=50.0, revision=1, active=False, **MISMATCH))
+    world.gets(advisory("decision-2", at_s=52.0, **MISMATCH))
+    assert len(world.run_until(90.0).calls()) == 1
+
+
+def test_what_is_read_back_wrongly_is_said_three_times_at_most() -> None:
+    read = Heard("understood", "Climb flight level three eight zero, American one two three.")
+    names = [f"controller.Washington_Centre.{each}.readback" for each in (1, 2, 3, 4)]
+    heard = dict.fromkeys(((name, TOWER) for name in names), Heard("misheard", read.text))
+    world = Tower(heard=heard).advises(AAL123=UP).run_until(120.0)
+    assert len(world.calls()) == 3
+
+
+def test_a_line_of_the_script_waits_for_the_readback_of_a_correction() -> None:
+    world = Tower(CLEARANCE, WRONG, ROGER).gets(advisory(at_s=18.0, **MISMATCH)).run_until(90.0)
+    (correction,) = world.calls()
+    readback = world.spoken(f"{correction.id}.readback")
+    assert correction.t_tx_ns < seconds_to_ns(24.0)
+    assert world.spoken("roger").t_tx_ns > readback.t_end_ns > correction.t_end_ns
+
+
+def test_a_line_of_the_script_is_said_if_nobody_answers_a_correction() -> None:
+    name = "controller.Washington_Centre.1"
+    every = (name, f"{name}.repeat-1", f"{name}.repeat-2")
+    heard = dict.fromkeys(((each, "AAL123") for each in every), MISSED)
+    world = Tower(CLEARANCE, WRONG, ROGER, heard=heard)
+    said = world.gets(advisory(at_s=18.0, **MISMATCH)).run_until(120.0).said()
+    assert said.index("roger") > said.index(every[1])
+    assert "clearance.end" in said
 
 
 def airport() -> Briefing:

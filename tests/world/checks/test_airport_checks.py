@@ -194,3 +194,52 @@ def test_on_the_command_line_it_is_told_in_words_with_exit_code_2(
     assert told.returncode == 2
     assert what in told.stderr
     assert "Traceback" not in told.stderr + told.stdout
+
+
+def test_names_in_instructions_lead_to_something(subtests: pytest.Subtests) -> None:
+    def told(**command: Any) -> Callable[..., Any]:
+        return put("radio", "lines", 2, "commands", 0, "command", command)
+
+    def ends(**condition: Any) -> Callable[..., Any]:
+        return put("end_when", [{"actor": "AAL123", **condition}])
+
+    command = "radio/lines/2/commands/0/command"
+    table = [
+        (told(action="contact", unit="Nowhere Ground"), f"{command}/unit", "no unit 'Nowhere"),
+        (told(action="contact"), command, "expected one of them"),
+        (told(action="taxi_to", runway="01", via=["ZZ"]), f"{command}/via/0", "no taxiway 'ZZ'"),
+        (told(action="taxi_to", place="gate 99"), f"{command}/place", "no stand or taxiway"),
+        (told(action="taxi_to", runway="01", cross=["36"]), f"{command}/cross/0", "it has 01"),
+        (told(action="hold_short", taxiway="ZZ"), f"{command}/taxiway", "no taxiway 'ZZ'"),
+        (told(action="cross", runway="01", at="ZZ"), f"{command}/at", "no taxiway 'ZZ'"),
+        (
+            told(action="follow", whom="AAL123", hold_short=["J", "ZZ"]),
+            f"{command}/hold_short/1", "no taxiway 'ZZ'",
+        ),
+        (ends(type="fix_passed", fix="LAMM"), "end_when/0/fix", "no fix 'LAMM'"),
+        (ends(type="fix_passed", fix="runway 36"), "end_when/0/fix", "did you mean 'runway"),
+        (
+            ends(type="in_phase", phases=["rollout", "taxing"]),
+            "end_when/0/phases/1", "no phase 'taxing'; did you mean 'taxi'?",
+        ),
+        (
+            ends(type="in_phase", actor="OPS1", phases=["taxi"]),
+            "end_when/0/phases/0", "no phase 'taxi'; did you mean 'standing'?",
+        ),
+    ]  # fmt: skip
+    for change, where, what in table:
+        with subtests.test(f"{where} {what}"):
+            message = complaint(change)
+            assert f"{where}: " in message
+            assert what in message
+
+
+@pytest.mark.parametrize("name", ["Washington Tower", "tower", "field", "KDCA", "runway 01"])
+def test_a_unit_is_named_by_its_words_and_a_fix_as_crews_know_it(name: str) -> None:
+    document = copy.deepcopy(BASE)
+    if "ower" in name:
+        command = {"action": "contact", "unit": name}
+        document["radio"]["lines"][2]["commands"][0]["command"] = command
+    else:
+        document["end_when"] = [{"type": "fix_passed", "actor": "AAL123", "fix": name}]
+    assert load_text(json.dumps(document), "test.json").name == "s01b_nominal"

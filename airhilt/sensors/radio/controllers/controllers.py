@@ -27,17 +27,13 @@ from airhilt.sensors.radio.controllers.calls import ControllerCalls
 from airhilt.sensors.radio.controllers.displays import Displays
 from airhilt.sensors.radio.controllers.measures import Judgement, Measure, Repetition
 from airhilt.sensors.radio.controllers.positions import Alert, Position
-from airhilt.sensors.radio.controllers.strips import Contact, Strips
+from airhilt.sensors.radio.controllers.strips import ANSWERS_WITHIN_S, Contact, Given, Strips
 from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, controller_reactions
 
-MOST_CORRECTIONS = 2
-"""Number of times that a controller corrects the readback of one instruction."""
-ANSWERS_WITHIN_S = 5.0
-"""Time in s in which a controller expects the answer to a call: an assumption."""
 ACTS_WITHIN_S = 10.0
 """Time in s that a controller gives somebody to do what it was told: an assumption."""
 
@@ -101,6 +97,7 @@ class Controllers:
     def ended(self, call: RadioCall) -> None:
         """Take in that a call has been on the air: the strips of its unit have it."""
         if self._stations.is_actor(call.speaker):
+            self._strips.answered(call)
             return
         self._strips.said(call)
         position = self._positions.get(call.speaker)
@@ -113,17 +110,12 @@ class Controllers:
         call = heard.call
         if not self._stations.is_actor(call.speaker):
             return
-        is_wrong, told = self._strips.heard(heard), call.in_reply_to
+        self._strips.heard(heard)
         position = self._positions.get(heard.listener)
         if position is None:
             return
         self._arrivals.heard(heard, position)
-        if told is None or not is_wrong:
-            return
-        corrections = position.corrections.get(told.id, MOST_CORRECTIONS)
-        if corrections < MOST_CORRECTIONS:
-            repetition = Repetition(call.speaker, told, is_correction=True)
-            position.misread.append(repetition)
+        if self._strips.misread(position.unit) is not None:
             self._speak(position)
 
     def check(self, heard: HeardCall) -> None:
@@ -136,7 +128,15 @@ class Controllers:
         if correction is not None and correction is heard.call.in_reply_to:
             self._policy.call_again(correction)
         elif correction is not None:
+            self._strips.corrects(correction)
             self._speakers.say_later(correction)
+
+    def awaits_answer(self, one: str, other: str | None) -> bool:
+        """Return whether one of two is a unit that waits for the answer to a correction."""
+        unit, actor = (other, one) if self._stations.is_actor(one) else (one, other)
+        if unit is None or actor is None or self._seats.has_person(unit):
+            return False
+        return self._strips.awaits_answer(unit, actor)
 
     def contact(self, callsign: str) -> Contact | None:
         """Return the unit that works an actor, and on which frequency; None if there is none."""
@@ -226,8 +226,9 @@ class Controllers:
         """Make the most urgent call that is still to be made, if the controller is not speaking."""
         if position.speaking is not None or self._seats.has_person(position.unit):
             return
-        if position.misread:
-            self._correct(position, position.misread.pop(0))
+        misread = self._strips.misread(position.unit)
+        if misread is not None:
+            self._correct(position, misread)
             return
         for alert in sorted(self._shown.values(), key=lambda each: each.urgency):
             call = None
@@ -237,13 +238,14 @@ class Controllers:
                 self._calls.say(position, call)
                 return
 
-    def _correct(self, position: Position, misread: Repetition) -> None:
+    def _correct(self, position: Position, misread: Given) -> None:
         """Say an own call again that was read back wrongly."""
+        callsign = misread.call.addressed or ""
         contact = Contact(position.unit, misread.call.frequency_khz)
-        times = position.corrections[misread.call.id] + 1
-        call = self._calls.call(self._name(position), misread, contact)
-        position.corrections[call.id] = times
-        self._event("controller_reacts", position.unit, f"{misread.callsign}: corrects a readback")
+        repetition = Repetition(callsign, misread.call, is_correction=True)
+        call = self._calls.call(self._name(position), repetition, contact)
+        self._strips.corrects(call)
+        self._event("controller_reacts", position.unit, f"{callsign}: corrects a readback")
         self._calls.say(position, call)
 
     def _name(self, position: Position) -> str:
@@ -293,7 +295,8 @@ class Controllers:
         does = ", ".join(action.replace("_", " ") for action in actions)
         self._event("controller_reacts", position.unit, f"{callsign}: {does} ({advisory.id})")
         call = self._calls.call(self._name(position), measure, contact)
-        position.corrections[call.id] = 0
+        if isinstance(measure, Repetition):
+            self._strips.corrects(call)
         return call
 
     def _is_settled(self, advisory: Advisory, callsign: str) -> bool:
@@ -306,11 +309,12 @@ class Controllers:
             return True
         strip, said = self._strips.of(callsign), self._speakers.said
         calls = [said[name] for name in advisory.evidence.radio_ids if name in said]
-        given = [call for call in calls if call in strip.instructions]
         answered = [call.in_reply_to for call in calls if call.in_reply_to is not None]
-        if any(call.id in strip.read_back for call in (*given, *answered)):
+        told = [strip.instructions.get(call.first) for call in (*calls, *answered)]
+        if any(each is not None and each.is_read_back for each in told):
             return True
-        return bool(given) and strip.instructions[-1] not in given
+        given = [each for each in told[: len(calls)] if each is not None]
+        return bool(given) and all(each is not strip.last for each in given)
 
     def _is_told(
         self, callsign: str, measure: Measure | Repetition, instructions: tuple[Instruction, ...]
@@ -319,17 +323,21 @@ class Controllers:
 
         None: it was told, and the answer is still to come.
         """
-        strip = self._strips.of(callsign)
-        since_s = (self._director.now_ns - strip.told_ns) / SECOND_NS
-        if not strip.instructions or since_s > ACTS_WITHIN_S:
+        last = self._strips.of(callsign).last
+        if last is None:
             return False
-        last = strip.instructions[-1]
+        since_s = (self._director.now_ns - last.told_ns) / SECOND_NS
+        if since_s > ACTS_WITHIN_S:
+            return False
         if isinstance(measure, Repetition):
-            return last is not measure.call
-        meant = self._stations.listener(last.frequency_khz).parse(last.said).instructions
+            if last.call is not measure.call:
+                return True
+            if last.call.gives_again is None:
+                return False
+        meant = self._stations.listener(last.call.frequency_khz).parse(last.call.said).instructions
         if not {each.action for each in instructions} <= {each.action for each in meant}:
             return False
-        if last.id in strip.read_back:
+        if last.is_read_back:
             return True
         return None if since_s < ANSWERS_WITHIN_S else False
 

@@ -87,14 +87,14 @@ class Judgement:
     def measures(self, advisory: Advisory) -> tuple[Measure | Repetition, ...]:
         """Return what is to be done about an advisory, the most important first."""
         actions = dict(self._recommended(advisory)) or dict(self._own(advisory))
-        repetitions = {each.callsign: each for each in self._repetitions(advisory)}
-        for callsign, action in list(actions.items()):
-            if callsign in repetitions and isinstance(action, MaintainLevel):
-                del actions[callsign]
-        return (
-            *(each for each in repetitions.values() if each.callsign not in actions),
-            *(self._measure(advisory, *each) for each in actions.items()),
-        )
+        measures: list[Measure | Repetition] = []
+        doubt = self._in_doubt(advisory)
+        if doubt is not None and isinstance(actions.get(doubt.callsign), MaintainLevel | None):
+            actions.pop(doubt.callsign, None)
+            if not self._is_read_back(doubt.call, doubt.callsign):
+                measures.append(doubt)
+        measures += (self._measure(advisory, *each) for each in actions.items())
+        return tuple(measures)
 
     def _measure(self, advisory: Advisory, callsign: str, action: Recommendation) -> Measure:
         own = self._displays.target(callsign)
@@ -149,18 +149,24 @@ class Judgement:
 
     # --- what was read back wrongly ---------------------------------------------------------
 
-    def _repetitions(self, advisory: Advisory) -> Iterator[Repetition]:
-        """Yield the instruction that was read back wrongly, or by nobody, or by somebody else."""
+    def _in_doubt(self, advisory: Advisory) -> Repetition | None:
+        """Return the instruction that was read back wrongly, or by nobody, or by somebody else."""
         if advisory.kind != "readback_mismatch":
-            return
+            return None
         calls = [self._said[name] for name in advisory.evidence.radio_ids if name in self._said]
         for callsign in advisory.traffic:
             given = self._strips.of(callsign).instructions
             spoke = any(call.speaker == callsign for call in calls)
             if given and (spoke or any(call.addressed == callsign for call in calls)):
-                told = next((call for call in reversed(given) if call in calls), given[-1])
-                yield Repetition(callsign, told, is_correction=spoke)
-                return
+                in_evidence = {call.first for call in calls}
+                newest = list(reversed(given))
+                first = next((each for each in newest if each in in_evidence), newest[0])
+                return Repetition(callsign, given[first].call, is_correction=spoke)
+        return None
+
+    def _is_read_back(self, call: RadioCall, callsign: str) -> bool:
+        """Return whether an actor has read an instruction back as it was, as its unit heard it."""
+        return self._strips.of(callsign).instructions[call.first].is_read_back is True
 
     # --- judged by the controller itself ----------------------------------------------------
 

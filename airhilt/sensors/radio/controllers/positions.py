@@ -9,7 +9,6 @@ from typing import NamedTuple
 from airhilt.messages import Advisory
 from airhilt.phraseology import Action, Instruction
 from airhilt.scenario.models import Alerting, Controller
-from airhilt.sensors.radio.controllers.measures import Repetition
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.world.actors.reactions import ReactionModel
 
@@ -35,10 +34,6 @@ class Position:
     speaking: RadioCall | None = None
     """Call on the air, or waiting for the frequency."""
     calls: int = 0
-    corrections: dict[str, int] = field(default_factory=dict)
-    """Number of corrections that led to each of its own calls, by id."""
-    misread: list[Repetition] = field(default_factory=list)
-    """Its own calls that were read back wrongly, and are to be said again."""
 
     def has_news(self, told: Told, instructions: tuple[Instruction, ...]) -> bool:
         """Return whether instructions are to be said, after what was said with the same actions.

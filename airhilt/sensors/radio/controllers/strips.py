@@ -6,9 +6,10 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from airhilt.phraseology import Action, agree
-from airhilt.sensors.radio.radio_call import HeardCall, RadioCall
+from airhilt.sensors.radio.radio_call import MOST_TIMES, HeardCall, RadioCall
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director
+from airhilt.units import SECOND_NS
 from airhilt.world.actors.listening import words
 
 RUNWAY_USES: frozenset[Action] = frozenset(
@@ -22,6 +23,8 @@ LANDING: frozenset[Action] = frozenset(
 )
 ENTERING: frozenset[Action] = frozenset({"cross", "proceed", "backtrack"})
 DEPARTING: frozenset[Action] = frozenset({"cleared_for_takeoff", "line_up"})
+ANSWERS_WITHIN_S = 5.0
+"""Time in s in which a controller expects the answer to a call: an assumption."""
 
 
 class Contact(NamedTuple):
@@ -32,23 +35,38 @@ class Contact(NamedTuple):
 
 
 @dataclass(slots=True)
+class Given:
+    """An instruction to an actor, however often it was given."""
+
+    call: RadioCall
+    """The call that gave it last."""
+    told_ns: int
+    """End of that call."""
+    is_read_back: bool | None = None
+    """Whether it was read back as it was; None: it was not read back since that call."""
+
+
+@dataclass(slots=True)
 class Strip:
     """What is known of one actor."""
 
     contact: Contact | None = None
     """The last exchange; None before the first."""
-    instructions: list[RadioCall] = field(default_factory=list)
-    """Calls of units with instructions for it, in the order in which they were made."""
+    instructions: dict[RadioCall, Given] = field(default_factory=dict)
+    """What it was told, by the calls that said so first, in the order of the last ones."""
+    correction: RadioCall | None = None
+    """Call that gives an instruction again because of its readback; None once it is answered."""
     runway_use: Action | None = None
     """The last instruction about the use of a runway."""
     runway: str | None = None
     """The runway of that instruction."""
-    read_back: set[str] = field(default_factory=set)
-    """Ids of the calls to it that it has read back as they were."""
-    told_ns: int = 0
-    """End of the last call with instructions for it."""
     follows_ra: bool = False
     """True from its report of a TCAS RA to its "clear of conflict"."""
+
+    @property
+    def last(self) -> Given | None:
+        """What it was told last."""
+        return next(reversed(self.instructions.values()), None)
 
 
 class Strips:
@@ -72,14 +90,14 @@ class Strips:
         strip.contact = Contact(call.speaker, call.frequency_khz)
         instructions = self._stations.listener(call.frequency_khz).parse(call.said).instructions
         if instructions:
-            strip.instructions.append(call)
-            strip.told_ns = self._director.now_ns
+            strip.instructions.pop(call.first, None)
+            strip.instructions[call.first] = Given(call, self._director.now_ns)
         for each in instructions:
             if each.action in RUNWAY_USES and not each.is_conditional:
                 strip.runway_use, strip.runway = each.action, each.runway or strip.runway
 
-    def heard(self, heard: HeardCall) -> bool:
-        """Note a call of an actor as a unit has heard it; return whether it is a wrong readback."""
+    def heard(self, heard: HeardCall) -> None:
+        """Note a call of an actor as a unit has heard it."""
         call, unit, text = heard.call, heard.listener, heard.text
         strip = self.of(call.speaker)
         strip.contact = Contact(unit, call.frequency_khz)
@@ -93,14 +111,49 @@ class Strips:
             strip.runway_use = "go_around"
         told = call.in_reply_to
         if told is None or (told.speaker, told.addressed) != (unit, call.speaker):
-            return False
+            return
         meant = parse(told.said).instructions
         actions = {each.action for each in meant}
         read = [each for each in parse(text).instructions if each.action in actions]
         is_right = all(any(agree(one, other) for other in meant) for one in read)
-        if read and is_right:
-            strip.read_back.add(told.id)
-        return not is_right
+        given = strip.instructions.get(told.first)
+        if read and given is not None:
+            given.is_read_back = is_right
+
+    def misread(self, unit: str) -> Given | None:
+        """Return an urgent instruction of a unit that was read back otherwise, and is not given up.
+
+        A unit says it again, as often as every call is made.
+        """
+        of_unit = (
+            given
+            for strip in self._strips.values()
+            for given in strip.instructions.values()
+            if given.call.speaker == unit and given.call.is_urgent
+        )
+        wrong = (each for each in of_unit if each.is_read_back is False)
+        return next((each for each in wrong if each.call.first.times_given < MOST_TIMES), None)
+
+    def corrects(self, correction: RadioCall) -> None:
+        """Note that a unit is to say a call by which it corrects a readback."""
+        if correction.addressed is not None:
+            self.of(correction.addressed).correction = correction
+
+    def awaits_answer(self, unit: str, callsign: str) -> bool:
+        """Return whether a unit has corrected an actor that has not answered yet."""
+        correction = self.of(callsign).correction
+        if correction is None or correction.speaker != unit or correction.first.is_given_up:
+            return False
+        given = self.of(callsign).instructions.get(correction.first)
+        if callsign not in correction.taken_by or given is None:
+            return self._stations.is_there(callsign)
+        return self._director.now_ns - given.told_ns < ANSWERS_WITHIN_S * SECOND_NS
+
+    def answered(self, call: RadioCall) -> None:
+        """Note that a call of an actor has ended, which may answer a correction."""
+        strip = self.of(call.speaker)
+        if call.in_reply_to is not None and call.in_reply_to is strip.correction:
+            strip.correction = None
 
     def contact(self, callsign: str) -> Contact | None:
         """Return who works an actor: the unit of the last exchange.
