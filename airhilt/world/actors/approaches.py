@@ -304,7 +304,8 @@ class Approaches:
         if command.leg == "base" and circuit.is_on("downwind", self._here, state.track_rad):
             circuit = Circuit(final, kind, circuit.side, state, STABLE_CIRCLING_FT)
         nearest = circuit.poses(command.leg, self._here, state.track_rad)
-        for longer_m in _longer_m(LONGEST_FINAL_M):
+        # A straight-in approach goes straight in, or not at all.
+        for longer_m in _longer_m(0.0 if command.leg == "final" else LONGEST_FINAL_M):
             poses = _farther(nearest, longer_m)
             curve = to_threshold(final, self._through(*poses.values()), poses["final"])
             if self._descends_well(end, curve):

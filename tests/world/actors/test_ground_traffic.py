@@ -196,7 +196,7 @@ def test_it_takes_the_next_exit_where_another_stands_at_its_own() -> None:
     for callsign in ("AAL1", "AAL2"):
         field.tell(callsign, "land", runway="01")
     assert field.run(240.0, lambda: all(field.stands(each)() for each in ("AAL1", "AAL2")))
-    assert field.said == ["unable J, traffic there"]
+    assert field.said == ["unable M, traffic there"]
     assert field.on("AAL1") == field.on("AAL2") == set()
     assert field.away_m("AAL1", "AAL2") > 60.0
 
