@@ -91,7 +91,7 @@ class Judgement:
         doubt = self._in_doubt(advisory)
         if doubt is not None and isinstance(actions.get(doubt.callsign), MaintainLevel | None):
             actions.pop(doubt.callsign, None)
-            if not self._is_read_back(doubt.call, doubt.callsign):
+            if not self._is_read_back(doubt, advisory):
                 measures.append(doubt)
         measures += (self._measure(advisory, *each) for each in actions.items())
         return tuple(measures)
@@ -164,9 +164,14 @@ class Judgement:
                 return Repetition(callsign, given[first].call, is_correction=spoke)
         return None
 
-    def _is_read_back(self, call: RadioCall, callsign: str) -> bool:
-        """Return whether an actor has read an instruction back as it was, as its unit heard it."""
-        return self._strips.of(callsign).instructions[call.first].is_read_back is True
+    def _is_read_back(self, doubt: Repetition, advisory: Advisory) -> bool:
+        """Return whether a unit has heard an instruction read back as it was.
+
+        What it heard in the call that an advisory is about does not count: it may have misheard.
+        """
+        given = self._strips.of(doubt.callsign).instructions[doubt.call.first]
+        calls = [self._said[name] for name in advisory.evidence.radio_ids if name in self._said]
+        return given.is_read_back is True and given.readback not in calls
 
     # --- judged by the controller itself ----------------------------------------------------
 

@@ -42,6 +42,8 @@ class Given:
     """The call that gave it last."""
     told_ns: int
     """End of that call."""
+    readback: RadioCall | None = None
+    """The last readback of it."""
     is_read_back: bool | None = None
     """Whether it was read back as it was; None: it was not read back since that call."""
 
@@ -118,7 +120,7 @@ class Strips:
         is_right = all(any(agree(one, other) for other in meant) for one in read)
         given = strip.instructions.get(told.first)
         if read and given is not None:
-            given.is_read_back = is_right
+            given.readback, given.is_read_back = call, is_right
 
     def misread(self, unit: str) -> Given | None:
         """Return an urgent instruction of a unit that was read back otherwise, and is not given up.
