@@ -175,6 +175,8 @@ class Call:
     """True if it announces an emergency descent (ICAO Doc 4444, 15.1.4)."""
     corrected: bool = False
     """True if it corrects itself or the call before it."""
+    disregards: bool = False
+    """True if it withdraws what calls before it told, and not only words of its own."""
     negative: bool = False
     """True if it begins with "negative" or says "unable"."""
     acknowledged: bool = False

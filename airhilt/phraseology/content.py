@@ -60,6 +60,8 @@ class Content:
     expected: list[Instruction] = field(default_factory=list)
     asked: list[Question] = field(default_factory=list)
     traffic: list[str] = field(default_factory=list)
+    disregards: bool = False
+    """True if it withdraws what was told before."""
     pressure_hpa: float | None = None
     """Altimeter setting that was read back without its word."""
 

@@ -149,8 +149,9 @@ def _take(content: Content, part: Words, marker: str) -> None:
         content.instructions.clear()
         content.traffic.clear()
         size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
-        is_anew = size == 1 and bool(withdrawn)
-        part = Words(part.texts[size:], part.confidences[size:]) if size > 1 or is_anew else part
+        is_anew = size == 1
+        part = Words(part.texts[size:], part.confidences[size:])
+        content.disregards |= not withdrawn and part.texts[:2] != ["the", "traffic"]
     elif marker == "correction":
         part = Words(part.texts[1:], part.confidences[1:])
     new = content_of(part)

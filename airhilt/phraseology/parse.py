@@ -178,6 +178,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         urgency=URGENCY in present,
         emergency_descent=EMERGENCY_DESCENT in text,
         corrected=corrects or "correction" in present,
+        disregards=content.disregards,
         negative="negative" in first or "unable" in present,
         acknowledged=not _ACKNOWLEDGED.isdisjoint(present),
         asks_again=kind == "say_again"
