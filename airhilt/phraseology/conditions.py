@@ -37,7 +37,7 @@ class Clause:
         told = self.told
         if told.action in REPORTS:
             return  # What is seen waits for nothing.
-        kind, _, event = condition.partition(" ")
+        event = condition.partition(" ")[2]
         if told.action == "report" and told.position is None and not _CONTINGENT.match(condition):
             self.told = replace(told, position=event, confidence=LONG_NAME)
             return

@@ -19,7 +19,8 @@ from airhilt.phraseology.words import MENDED, Words
 
 _DISREGARDED = re.compile(
     r"disregard(?: (?:my|the|your|that|this|last|previous|transmission|call|clearance|takeoff"
-    r"|landing|instruction|instructions|all|it))*"
+    r"|landing|instruction|instructions|all|it"
+    r"|(?:taxi|approach|crossing|heading|speed|push)(?= clearance(?!\S)| instruction)))*"
     r"(?:(?<= the) (?:go around|approach|climb|descent|turn|speed|squawk|hold|taxi|push"
     r"|frequency(?: change)?|heading|line up|crossing)(?: clearance)?)?(?!\S)"
 )
@@ -161,6 +162,7 @@ def _take(content: Content, part: Words, marker: str) -> None:
         ]
     content.traffic += new.traffic
     content.doing |= new.doing
+    content.is_unread |= new.is_unread
     content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
     if marker == "correction" and content.instructions:
         if new.instructions:

@@ -94,9 +94,9 @@ _TALKED_OF = re.compile(
 """Words right before an action that only talk of it: what may have to be done, thanks, reasons."""
 _ARTICLES = frozenset({"the", "a", "an", "that", "your", "another", "during"})
 """Words right before a noun: "the go around"."""
-_NOUNS: frozenset[Action] = (CLEARANCES | STOPS | {"missed_approach"}) - {
-    "cancel_takeoff", "hold_short",
-}  # fmt: skip
+_NOUNS: frozenset[Action] = frozenset({*CLEARANCES, *STOPS, "missed_approach"}).difference(
+    ("cancel_takeoff", "hold_short")
+)
 """Actions whose words may be a noun."""
 _WISHED = frozenset({("need", "you"), ("want", "you"), ("like", "you")})
 """Word pairs that order what is behind them: "I need you to turn left"."""

@@ -77,12 +77,14 @@ _PLACE_BEHIND = re.compile(
 )
 """A place behind its route."""
 _TAXI_TO = re.compile(
-    r"(?!.* (?:runway|not)(?!\S)) (?:to|into|onto) (?:the |your )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
+    r"(?!.* (?:runway|not)(?!\S)) (?:to|into|onto) (?:the |your )?"
+    r"((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
 )
 
 _TO_FIX = re.compile(rf" to ((?!(?:the|via)(?!\S)|{TAXIWAY}){FIX})")
 _ON_GROUND = (
-    rf"(?:{STAND}|holding|taxiway|station|fire|cargo|maintenance|area|line|fbo|fuel|run up)(?!\S)"
+    rf"(?:{STAND}|holding|taxiway|station|fire|cargo|maintenance|area|line|fbo|fuel|run up)"
+    r"(?!\S)"
 )
 _PLACE_ON_GROUND = re.compile(rf"(?<!\S){_ON_GROUND}")
 
@@ -287,7 +289,8 @@ FORMS: Listed = (
     ("expedite", "vacate", r"expedite (?:vacat|exit)(?:e|ing)?(?: the runway)?", vacate),
     ("expedite", "expedite", r"expedite (?:your |the )?(?:taxi|crossing|backtrack|turn)", alone),
     ("turn turning", "vacate", r"turn(?:ing)? off(?: the runway)?", vacate),
-    ("leave", "vacate", r"leave the runway", vacate),
+    ("leave", "vacate", r"leave(?: the runway|(?= runway [0-9]))", vacate),
+    ("get", "vacate", r"get off(?: the runway|(?= runway [0-9]))", vacate),
     ("taxi taxiing drive driving", "taxi",
      r"(?:(?<!continue )taxi(?:ing)?|driv(?:e|ing))"
      r"(?: (?:back|out|over|forward|up|ahead|straight)(?= (?:to(?! and)|into|onto|via|on)(?!\S)))*"
@@ -295,12 +298,13 @@ FORMS: Listed = (
      r"|left|right|into|without|and|with|hold|[0-9]+|\|)(?!\S)|$)",
      taxi),
     ("continue", "taxi",
-     rf"continue(?: taxi(?:ing)?(?= to)|(?= to (?:the )?(?:holding (?:point|decimal)|{STAND})))", taxi),
+     r"continue(?: taxi(?:ing)?(?= to)"
+     rf"|(?= to (?:the )?(?:holding (?:point|decimal)|{STAND})))", taxi),
     ("continue continuing resume resuming", "taxi",
      r"(?:continu|resum)(?:e|ing)(?: your| the)? taxi(?:ing)?", alone),
     ("return returning go going come head taxi drive", "taxi",
-     rf"(?:return(?:ing)?|(?:go|going|come|head|taxi|drive) back)(?= to (?:the |your )?(?:{_ON_GROUND}))",
-     taxi),
+     r"(?:return(?:ing)?|(?:go|going|come|head|taxi|drive) back)"
+     rf"(?= to (?:the |your )?(?:{_ON_GROUND}))", taxi),
     ("runway", "taxi",
      rf"(?<!to )(?<!taxi )(?<!decimal )runway {RUNWAY}"
      rf" via(?: (?!q n h)(?:and |taxiway )?{TAXIWAY})+", route),

@@ -57,7 +57,8 @@ _OF_LANDING = re.compile(r"(?<!\S)(?:land|landing|final|around)(?!\S)")
 """Words of an approach, which "continue" belongs to."""
 _ONLY = re.compile(
     r"(?:\| )?(?:(?:[a-z]+ )?(?:tower|ground) )?"
-    r"(?:(?:you|may|can|okay|ok|roger|thanks|thank|please|just|now|and|then|the|#+) )*(?:continue|proceed)(?: (?:now|please|as cleared))*"
+    r"(?:(?:you|may|can|okay|ok|roger|thanks|thank|please|just|now|and|then|the|#+) )*"
+    r"(?:continue|proceed)(?: (?:now|please|as cleared))*"
 )
 """A call that says nothing but to continue."""
 _OF = re.compile(
@@ -117,7 +118,8 @@ def continues(segment: Segment, action: Action) -> Read | None:
         return read
     if _OF_LANDING.search(segment.text) is None and not segment.after.startswith(" #"):
         is_alone = _ONLY.fullmatch(segment.text)
-        told = Instruction("taxi", confidence=BARE_VALUE)
+        sure = NO_RUNWAY if "#" in segment.text else BARE_VALUE
+        told = Instruction("taxi", confidence=sure)
         return Read(told, segment.start, segment.found.end()) if is_alone else None
     told = replace(read.instruction, confidence=NO_RUNWAY)
     return read._replace(instruction=told)
@@ -218,7 +220,7 @@ FORMS: Listed = (
      rf"hold(?:ing)? at(?! {LETTER} {LETTER} {LETTER})"
      rf"(?= (?:taxiway |intersection |holding (?:point|decimal) )?{LETTER})",
      hold_short),
-    ("continue remain", "hold_position", r"(?:continue|remain) holding", alone),
+    ("continue remain", "hold_position", r"(?:continue|remain) holding(?! short)", alone),
     ("holding", "hold_position", r"holding(?= \||$)", alone),
     ("hold holding", "hold_position", r"(?<!will )hold(?:ing)? (?:your |my |present |in )?position",
      alone),
@@ -236,7 +238,8 @@ FORMS: Listed = (
      continue_approach),
     ("continue proceed", "continue_approach",
      r"(?:continue(?: for)?|proceed(?=(?: now| please| as cleared)?(?: \||$)))(?: now)?"
-     r"(?= runway|(?: please| as cleared)(?: \||$)|$| \|| traffic| expect| wind| [0-9]{1,2} (?:left|right|centre))",
+     r"(?= runway|(?: please| as cleared)(?: \||$)"
+     r"|$| \|| traffic| expect| wind| [0-9]{1,2} (?:left|right|centre))",
      continues),
     ("continue", "continue_approach", r"continue(?= number [0-9])", continue_approach),
     ("backtrack backtracking", "backtrack", r"backtrack(?:ing)?", on_runway),
