@@ -47,14 +47,16 @@ _OF_PROCEDURE = re.compile(
 _VALUED = frozenset({"altitude", "heading", "speed", *CLEARANCES} - {"taxi", "cleared_approach"})
 """Actions whose value stands near their words, without unknown words between."""
 _VERBS = (
-    "make", "do(?! (?:you|not|i|we|they)(?!\\S))", "fly", "leave", "return", "get", "wait", "move",
+    "make", "do(?! (?:you|not|i|we|they)(?!\\S))", "fly", "leave", "return", "get", "move",
+    "wait(?= [a-z])",
     "slow", "taxi", "drive", "speed(?= up)", "hurry", "keep", "widen", "offset", "shorten",
     "square", "break", "pull", "push", "start", "rock", "lower", "back(?= up)",
     "continue", "proceed", "turn",
     "climb", "descend", "hold", "cross", "stop", "clear(?= (?:the )?runway)", "land",
-    "go(?! ahead)", "follow", "join", "enter", "maintain", "reduce", "increase", "abort", "wave",
+    "go(?! ahead)", "follow", "join", "maintain", "reduce", "increase", "abort", "wave",
     "circle", "orbit", "exit", "vacate", "line", "cancel", "come", "park", "use(?! caution)",
-    "(?:stay|remain)(?! (?:this|with|on (?:this|my)))", "side", "change", "switch", "give",
+    "(?:stay|remain)(?! (?:this|with|on (?:this|my)))", "side", "change(?! to runway)", "switch",
+    "give",
     "take(?! care)", "intercept", "recycle", "reset", "adjust", "divert", "extend", "resume",
 )  # fmt: skip
 """First words of orders."""
@@ -104,9 +106,8 @@ def content_of(words: Words) -> Content:
     withdraw(clauses)
     put_in_order(clauses, line.texts, text)
     gaps = _gaps(clauses, line, plain)
-    heads = {clause.start for clause in clauses}
     content.is_unread = any(
-        _ORDERS.match(plain, gap.start, gap.end) and (len(gap.words) > 2 or gap.end not in heads)
+        _ORDERS.match(plain, gap.start, gap.end) and (len(gap.words) > 2 or gap.end == len(plain))
         for gap in gaps
     )
     if gaps:
