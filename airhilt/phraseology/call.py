@@ -167,6 +167,8 @@ class Call:
     """Contents that the call says are to be expected. Nothing of it is an instruction."""
     asked: tuple[Question, ...] = ()
     """Questions of a call. Nothing of them is an instruction."""
+    unread: bool = False
+    """True if it begins with the callsign and has an order that could not be made out."""
     distress: bool = False
     """True if it says mayday (ICAO Annex 10 volume II, 5.3.2)."""
     urgency: bool = False
@@ -175,6 +177,8 @@ class Call:
     """True if it announces an emergency descent (ICAO Doc 4444, 15.1.4)."""
     corrected: bool = False
     """True if it corrects itself or the call before it."""
+    disregards: bool = False
+    """True if it withdraws what calls before it told, and not only words of its own."""
     negative: bool = False
     """True if it begins with "negative" or says "unable"."""
     acknowledged: bool = False

@@ -50,8 +50,8 @@ def on_leg(segment: Segment, action: Action) -> Read | None:
 _SIDE = r"(?:(?P<turn>left|right)(?: hand)? )?"
 FORMS: Listed = (
     ("make making do fly", "orbit",
-     rf"(?:mak(?:e|ing)|do|fly) (?:(?:a|one|another) )?{_SIDE}(?:turn )?(?:a )?"
-     r"(?:360(?: degrees?)?(?: turn(?! left| right))?|orbit)"
+     rf"(?:mak(?:e|ing)|do|fly) (?:(?:a|one|another|1) )?{_SIDE}(?:turn )?(?:a )?"
+     r"(?:1?360(?: degrees?)?(?: turn(?! left| right))?|orbit)"
      r"(?: (?:to the )?(?P<turn_behind>left|right))?", on_leg),
     ("orbit orbiting", "orbit", r"orbit(?:ing)?(?: to the)?(?: (?P<turn>left|right))?", on_leg),
     ("left right", "orbit", r"(?P<turn>left|right) (?:hand )?(?:360(?= for)|orbit)", on_leg),

@@ -38,8 +38,17 @@ _HAPPENED = frozenset(
      "rolls", "goes"}
 )  # fmt: skip
 """Last words of a condition, behind which a route may begin."""
-_INCOMPLETE = frozenset({"be", "been", "is", "are", "was", "were", "to", "your", "cleared"})
+_INCOMPLETE = frozenset(
+    {"be", "been", "is", "are", "was", "were", "to", "your", "cleared", "of", "a", "an", "the"}
+)
 """Words of an event that go on with a clearance."""
+_SUPPOSING = re.compile(
+    r"(?:if|unless|when|whenever|once|case|should)(?: that)? (?:you|we|i|he|she|it|they)"
+    r"(?: (?:do|also|still|then|(?:have|need|want|decide|intend|elect|had|wish) to|must))?$"
+)
+"""Words of a condition that go on with what somebody does."""
+_CASE = re.compile(r"in (?:the )?(?:event|case)(?: of| that| you)(?!\S)|should you(?!\S)")
+"""First words of another condition on all that follows it."""
 IDLE = frozenset({"and", "the"})
 """Words without which an action means the same, however surely they were heard."""
 LONGEST_STATION = 6
@@ -72,13 +81,12 @@ _EVENTS = {
     "passing": rf"passing (?:{_MARKER}|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "crossing": rf"crossing (?:{_MARKER}|{FIX}(?={_VERB}))",
     "leaving": rf"leaving (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
-    "on": r"on (?:the go|departure)",
+    "on": r"on (?:the (?:go around|missed approach)(?= (?!\|)\S)|the go(?! around)|departure)",
+    "for": r"for the (?:go around|missed approach)(?= (?!\|)\S)",
     "reaching": rf"reaching (?:{_GROUND_PLACE}(?={_CALL_THERE})"
     rf"|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "depart": rf"depart {FIX}(?= heading)",
     "leave": rf"leave {FIX}(?= heading)",
-    "event": rf"event of(?: (?!fly|climb|turn)[a-z]+){{1,3}}?(?={_VERB})",
-    "case": rf"case of(?: (?!fly|climb|turn)[a-z]+){{1,3}}?(?={_VERB})",
     "missed": r"missed approach instructions(?: are)?",
     "climb": r"climb out instructions(?: are)?",
     "when": rf"when (?:ready|able|receiving (?:the )?{FIX}(?: vor| v o r)?"
@@ -100,7 +108,7 @@ _BEHIND_AGAIN = re.compile(rf"(?: (?:runway )?{RUNWAY})? (?:behind|after) \|$")
 _LEVEL_ONLY = re.compile(rf" {LEVEL_WORDS}(?: and)? ")
 _TO_TURN = re.compile(rf" (?:runway {RUNWAY} )?(?:(?:next|first) )?(?:to the )?")
 MILES_BEFORE = re.compile(rf"[0-9]+ (?:nautical )?miles? before {FIX}(?={_VERB})")
-_BEGINNINGS = FORMS.keys() | EVENTS.keys() | CONDITIONS | {"traffic"}
+_BEGINNINGS = FORMS.keys() | EVENTS.keys() | CONDITIONS | {"traffic", "should"}
 """First words of actions, of conditions, and of words about traffic."""
 _BEHIND_NUMBERS = NUMBER_FORMS.keys() | {"mile", "miles", "nautical"}
 """Words behind a number that may begin an action or a condition."""
@@ -184,7 +192,8 @@ class Line:
             self._open = _Open(start, index, is_traffic=True)
             return start + 1
         is_number = word in _PLACED and "number" in self.texts[max(index - 4, 0) : index]
-        if word in CONDITIONS and not is_number and is_free:
+        is_condition = (word in CONDITIONS and not is_number) or _CASE.match(self.text, start)
+        if is_condition and is_free:
             self._close(start)
             self._open = _Open(start, index, is_traffic=False)
             return start + 1
@@ -231,7 +240,8 @@ class Line:
         A clearance is in "once you are cleared to land".
         """
         inner = self.texts[aside.first + 1 : each.first]
-        is_open = not inner or inner[-1] in _INCOMPLETE
+        said = self.text[aside.start : each.match.start()].rstrip()
+        is_open = not inner or inner[-1] in _INCOMPLETE or _SUPPOSING.search(said) is not None
         is_cleared = each.form.action in CLEARANCES and BETWEEN.issuperset(inner)
         return not aside.is_traffic and (is_open or is_cleared)
 
@@ -267,7 +277,7 @@ class Line:
         """Return whether what is open cannot go on with a word."""
         if aside.is_traffic or word == NAME:
             return word == NAME
-        if word == "runway" and self.texts[index - 1] in ("crossing", "the", "of"):
+        if word == "runway" and self.texts[index - 1] in ("crossing", "the", "of", "if", "unless"):
             return False
         has_happened = self.texts[index - 1] in _HAPPENED and (
             word in LETTER_OF or word[0].isdigit()

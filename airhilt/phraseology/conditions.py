@@ -37,8 +37,8 @@ class Clause:
         told = self.told
         if told.action in REPORTS:
             return  # What is seen waits for nothing.
-        kind, _, event = condition.partition(" ")
-        if told.action == "report" and told.position is None and kind != "if":
+        event = condition.partition(" ")[2]
+        if told.action == "report" and told.position is None and not _CONTINGENT.match(condition):
             self.told = replace(told, position=event, confidence=LONG_NAME)
             return
         received = _RECEIVED.fullmatch(condition) if told.action == "direct" else None
@@ -73,7 +73,10 @@ _SHARING: dict[Action, frozenset[Action]] = {
     ),
 }
 """Actions on a runway that one beside them names: "circle to runway 33, cleared to land"."""
-_CONTINGENT = frozenset({"if", "event", "case", "missed", "climb"})
+_CONTINGENT = re.compile(
+    r"(?:(?:if|unless|should|missed|climb|in (?:the )?(?:event|case)) \S"
+    r"|(?:on|for) the (?:go around|missed approach))"
+)
 """First words of a condition on all that follows it."""
 _FREE = re.compile(
     r"(?:at )?(?:pilot|your|own) (?:discretion|convenience)$|when ready$"
@@ -146,7 +149,7 @@ def _owners(
     between = text[before.end : span.start] if before else ""
     is_behind = before is not None and not between.strip()
     last = [before] if before else []
-    if kind in _CONTINGENT and " " in event:
+    if _CONTINGENT.match(words) and not _WHEN_ABLE.match(words):
         return after or ([] if _CONSEQUENCE.search(words) else last)
     if before and before.is_expected and _IN_A_WHILE.fullmatch(between):
         return last

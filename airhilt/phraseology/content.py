@@ -46,6 +46,25 @@ _OF_PROCEDURE = re.compile(
 """Words before and behind the name of a procedure, which has no word of a report or an order."""
 _VALUED = frozenset({"altitude", "heading", "speed", *CLEARANCES} - {"taxi", "cleared_approach"})
 """Actions whose value stands near their words, without unknown words between."""
+_VERBS = (
+    "make", "do(?! (?:you|not|i|we|they)(?!\\S))", "fly", "leave", "return", "get", "move",
+    "wait(?= [a-z])",
+    "slow", "taxi", "drive", "speed(?= up)", "hurry", "keep", "widen", "offset", "shorten",
+    "square", "break", "pull", "push", "start", "rock", "lower", "back(?= up)",
+    "continue", "proceed", "turn",
+    "climb", "descend", "hold", "cross", "stop", "clear(?= (?:the )?runway)", "land",
+    "go(?! ahead)", "follow", "join", "maintain", "reduce", "increase", "abort", "wave",
+    "circle", "orbit", "exit", "vacate", "line", "cancel", "come", "park", "use(?! caution)",
+    "(?:stay|remain)(?! (?:this|with|on (?:this|my)))", "side", "change(?! to runway)", "switch",
+    "give",
+    "take(?! care)", "intercept", "recycle", "reset", "adjust", "divert", "extend", "resume",
+)  # fmt: skip
+"""First words of orders."""
+_ORDERS = re.compile(
+    r"[ |]*(?:(?:and|then|also|now|please|just|so|okay|ok|roger|you|can|may|thanks|thank) )*"
+    rf"(?:{'|'.join(_VERBS)})(?!\S)"
+)
+"""Beginning of an order, behind courtesies."""
 _PASSING = re.compile(r" ?(?:climbing|descending)(?!\S)")
 """Words behind a level that is only passed."""
 
@@ -60,6 +79,10 @@ class Content:
     expected: list[Instruction] = field(default_factory=list)
     asked: list[Question] = field(default_factory=list)
     traffic: list[str] = field(default_factory=list)
+    disregards: bool = False
+    """True if it withdraws what was told before."""
+    is_unread: bool = False
+    """True if an order stands in it that nobody can make out."""
     pressure_hpa: float | None = None
     """Altimeter setting that was read back without its word."""
 
@@ -83,6 +106,10 @@ def content_of(words: Words) -> Content:
     withdraw(clauses)
     put_in_order(clauses, line.texts, text)
     gaps = _gaps(clauses, line, plain)
+    content.is_unread = any(
+        _ORDERS.match(plain, gap.start, gap.end) and (len(gap.words) > 2 or gap.end == len(plain))
+        for gap in gaps
+    )
     if gaps:
         _take_bare(content, gaps, clauses, line, text)
     for clause in clauses:

@@ -19,7 +19,8 @@ from airhilt.phraseology.words import MENDED, Words
 
 _DISREGARDED = re.compile(
     r"disregard(?: (?:my|the|your|that|this|last|previous|transmission|call|clearance|takeoff"
-    r"|landing|instruction|instructions|all|it))*"
+    r"|landing|instruction|instructions|all|it"
+    r"|(?:taxi|approach|crossing|heading|speed|push)(?= clearance(?!\S)| instruction)))*"
     r"(?:(?<= the) (?:go around|approach|climb|descent|turn|speed|squawk|hold|taxi|push"
     r"|frequency(?: change)?|heading|line up|crossing)(?: clearance)?)?(?!\S)"
 )
@@ -149,8 +150,9 @@ def _take(content: Content, part: Words, marker: str) -> None:
         content.instructions.clear()
         content.traffic.clear()
         size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
-        is_anew = size == 1 and bool(withdrawn)
-        part = Words(part.texts[size:], part.confidences[size:]) if size > 1 or is_anew else part
+        is_anew = size == 1
+        part = Words(part.texts[size:], part.confidences[size:])
+        content.disregards |= not withdrawn and part.texts[:2] != ["the", "traffic"]
     elif marker == "correction":
         part = Words(part.texts[1:], part.confidences[1:])
     new = content_of(part)
@@ -160,6 +162,7 @@ def _take(content: Content, part: Words, marker: str) -> None:
         ]
     content.traffic += new.traffic
     content.doing |= new.doing
+    content.is_unread |= new.is_unread
     content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
     if marker == "correction" and content.instructions:
         if new.instructions:

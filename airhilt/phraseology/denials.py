@@ -5,6 +5,7 @@ They stand in the clause of the action: in the words that lead to it, or right b
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -86,6 +87,19 @@ _BEFORE_IT = frozenset(
 )  # fmt: skip
 """Word pairs right before an action that deny what is before them: "crossing cancelled, hold
 short", "unable that request, maintain flight level 240"."""
+_TALKED_OF = re.compile(
+    r"(?<!\S)(?:(?:may|might|could|would|can)(?: still| also)? have to"
+    r"|(?:reason|thank you|thanks|sorry|apologies|stand ?by|standing by) for)$|^for$"
+)
+"""Words right before an action that only talk of it: what may have to be done, thanks, reasons."""
+_ARTICLES = frozenset({"the", "a", "an", "that", "your", "another", "during"})
+"""Words right before a noun: "the go around"."""
+_NOUNS: frozenset[Action] = frozenset({*CLEARANCES, *STOPS, "missed_approach"}).difference(
+    ("cancel_takeoff", "hold_short")
+)
+"""Actions whose words may be a noun."""
+_WISHED = frozenset({("need", "you"), ("want", "you"), ("like", "you")})
+"""Word pairs that order what is behind them: "I need you to turn left"."""
 _WHO_WILL = frozenset({"we", "i", "you", "and", "then", "roger", "wilco", "okay", "affirm", NAME})
 """Words before "will" that make an action the speaker's own, or that of whom is called."""
 _NOT_DENIED = frozenset({"above", "below", "before", "contact"})
@@ -122,6 +136,9 @@ def is_meant(
         return False
     if lead[-1] == "will" and len(lead) > 1 and action != "report" and lead[-2] not in _WHO_WILL:
         return False
+    is_noun = lead[-1] in _ARTICLES and action in _NOUNS
+    if action not in REPORTS and (is_noun or _TALKED_OF.search(" ".join(lead))):
+        return False
     at = _governing(lead, is_clearance=action in CLEARANCES)
     if at is None:
         return True
@@ -134,8 +151,10 @@ def is_meant(
         return True  # The speaker corrects the callsign: "Delta, no, United 914".
     if word in DENIALS:
         return action in STOPS and lead[-1] in ("unable", "clearance")
-    if action not in CLEARANCES and tuple(lead[at : at + 2]) == ("need", "you"):
-        return True  # "I need you to turn left".
+    if action not in CLEARANCES and (
+        tuple(lead[at : at + 2]) in _WISHED or tuple(lead[at - 2 : at + 1]) == (NAME, "you", "need")
+    ):
+        return True
     return word not in OPEN or action in REPORTS
 
 

@@ -70,20 +70,23 @@ STAND = (
     rf"(?: (?:{LETTER} )?[0-9]{{1,3}}(?!\S)(?: {LETTER}(?= \||$| via| hold))?)?)"
 )
 """Pattern of a place on the apron, with its number."""
-_STAND = re.compile(rf"(?: to(?: the)?)? ({STAND})(?!\S)")
+_STAND = re.compile(rf"(?: (?:to|into|onto|in|on)(?: the| your)?)? ({STAND})(?!\S)")
 _NAME_OF_PLACE = rf"(?:(?!(?:{LETTERS_OF}|{FIX_ENDS})(?!\S))[a-z]+)"
 _PLACE_BEHIND = re.compile(
     rf"(?: and)? to (?:the )?({_NAME_OF_PLACE}(?: {_NAME_OF_PLACE}){{0,3}})(?= |$)"
 )
 """A place behind its route."""
 _TAXI_TO = re.compile(
-    r"(?!.* (?:runway|not)(?!\S)) to (?:the )?((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
+    r"(?!.* (?:runway|not)(?!\S)) (?:to|into|onto) (?:the |your )?"
+    r"((?:[a-z]+ ?){1,4}(?:[0-9]+)?)(?=$| )"
 )
 
 _TO_FIX = re.compile(rf" to ((?!(?:the|via)(?!\S)|{TAXIWAY}){FIX})")
-_PLACE_ON_GROUND = re.compile(
-    rf"(?<!\S)(?:{STAND}|holding|taxiway|station|fire|cargo|maintenance|area|line|fbo|fuel)(?!\S)"
+_ON_GROUND = (
+    rf"(?:{STAND}|holding|taxiway|station|fire|cargo|maintenance|area|line|fbo|fuel|run up)"
+    r"(?!\S)"
 )
+_PLACE_ON_GROUND = re.compile(rf"(?<!\S){_ON_GROUND}")
 
 
 def proceed(segment: Segment, action: Action) -> Read | None:
@@ -286,13 +289,22 @@ FORMS: Listed = (
     ("expedite", "vacate", r"expedite (?:vacat|exit)(?:e|ing)?(?: the runway)?", vacate),
     ("expedite", "expedite", r"expedite (?:your |the )?(?:taxi|crossing|backtrack|turn)", alone),
     ("turn turning", "vacate", r"turn(?:ing)? off(?: the runway)?", vacate),
-    ("leave", "vacate", r"leave the runway", vacate),
+    ("leave", "vacate", r"leave(?: the runway|(?= runway [0-9]))", vacate),
+    ("get", "vacate", r"get off(?: the runway|(?= runway [0-9]))", vacate),
     ("taxi taxiing drive driving", "taxi",
      r"(?:(?<!continue )taxi(?:ing)?|driv(?:e|ing))"
+     r"(?: (?:back|out|over|forward|up|ahead|straight)(?= (?:to(?! and)|into|onto|via|on)(?!\S)))*"
      rf"(?= (?:(?:taxiway )?{LETTER}|to|via|at|on|back|across|runway|holding|gate|stand|straight"
      r"|left|right|into|without|and|with|hold|[0-9]+|\|)(?!\S)|$)",
      taxi),
-    ("continue", "taxi", r"continue(?: taxi(?= to)|(?= to holding (?:point|decimal)))", taxi),
+    ("continue", "taxi",
+     r"continue(?: taxi(?:ing)?(?= to)"
+     rf"|(?= to (?:the )?(?:holding (?:point|decimal)|{STAND})))", taxi),
+    ("continue continuing resume resuming", "taxi",
+     r"(?:continu|resum)(?:e|ing)(?: your| the)? taxi(?:ing)?", alone),
+    ("return returning go going come head taxi drive", "taxi",
+     r"(?:return(?:ing)?|(?:go|going|come|head|taxi|drive) back)"
+     rf"(?= to (?:the |your )?(?:{_ON_GROUND}))", taxi),
     ("runway", "taxi",
      rf"(?<!to )(?<!taxi )(?<!decimal )runway {RUNWAY}"
      rf" via(?: (?!q n h)(?:and |taxiway )?{TAXIWAY})+", route),

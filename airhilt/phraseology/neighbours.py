@@ -61,7 +61,7 @@ _ALSO: dict[Action, frozenset[str]] = {
     "contact": frozenset({"now", "other", "when", "they"}),
     "monitor": frozenset({"now", "other", "they"}),
     "squawk": frozenset({"low", "normal", "mode"}),
-    "vacate": frozenset({"when", "onto", "next"}),
+    "vacate": frozenset({"when", "onto", "next", "now"}),
     "descend_via": frozenset({"landing"}),
     "climb_via": frozenset({"departure"}),
     "line_up": frozenset({"landing", "via"}),

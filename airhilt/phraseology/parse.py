@@ -174,10 +174,12 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         instructions=tuple(content.instructions),
         expected=tuple(content.expected),
         asked=tuple(content.asked),
+        unread=naming.addressed_first and content.is_unread,
         distress=DISTRESS in present,
         urgency=URGENCY in present,
         emergency_descent=EMERGENCY_DESCENT in text,
         corrected=corrects or "correction" in present,
+        disregards=content.disregards,
         negative="negative" in first or "unable" in present,
         acknowledged=not _ACKNOWLEDGED.isdisjoint(present),
         asks_again=kind == "say_again"

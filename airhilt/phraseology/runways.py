@@ -55,6 +55,12 @@ _DOUBLE_POINT = re.compile(
 """Taxiway of two letters, with or without a number, behind which the call ends."""
 _OF_LANDING = re.compile(r"(?<!\S)(?:land|landing|final|around)(?!\S)")
 """Words of an approach, which "continue" belongs to."""
+_ONLY = re.compile(
+    r"(?:\| )?(?:(?:[a-z]+ )?(?:tower|ground) )?"
+    r"(?:(?:you|may|can|okay|ok|roger|thanks|thank|please|just|now|and|then|the|#+) )*"
+    r"(?:continue|proceed)(?: (?:now|please|as cleared))*"
+)
+"""A call that says nothing but to continue."""
 _OF = re.compile(
     rf" (?:(?:end|threshold|side|middle|edge|numbers) of|on|crossing|off|near|beside) {RUNWAY}"
 )
@@ -106,12 +112,15 @@ def continue_approach(segment: Segment, action: Action) -> Read | None:
 
 
 def continues(segment: Segment, action: Action) -> Read | None:
-    """Read "continue" beside a runway, which is the approach to it."""
+    """Read "continue": the approach beside a runway or a landing, else the way on the ground."""
     read = continue_approach(segment, action)
     if read is None or read.instruction.runway:
         return read
-    if _OF_LANDING.search(segment.text) is None:
-        return None
+    if _OF_LANDING.search(segment.text) is None and not segment.after.startswith(" #"):
+        is_alone = _ONLY.fullmatch(segment.text)
+        sure = NO_RUNWAY if "#" in segment.text else BARE_VALUE
+        told = Instruction("taxi", confidence=sure)
+        return Read(told, segment.start, segment.found.end()) if is_alone else None
     told = replace(read.instruction, confidence=NO_RUNWAY)
     return read._replace(instruction=told)
 
@@ -211,7 +220,7 @@ FORMS: Listed = (
      rf"hold(?:ing)? at(?! {LETTER} {LETTER} {LETTER})"
      rf"(?= (?:taxiway |intersection |holding (?:point|decimal) )?{LETTER})",
      hold_short),
-    ("continue remain", "hold_position", r"(?:continue|remain) holding", alone),
+    ("continue remain", "hold_position", r"(?:continue|remain) holding(?! short)", alone),
     ("holding", "hold_position", r"holding(?= \||$)", alone),
     ("hold holding", "hold_position", r"(?<!will )hold(?:ing)? (?:your |my |present |in )?position",
      alone),
@@ -227,9 +236,10 @@ FORMS: Listed = (
     ("around", "go_around", r"around we go", alone),
     ("continue continuing", "continue_approach", r"continu(?:e|ing) (?:the |your )?approach",
      continue_approach),
-    ("continue", "continue_approach",
-     r"continue(?: for)?(?: now)?"
-     r"(?= runway|$| \|| traffic| expect| wind| [0-9]{1,2} (?:left|right|centre))",
+    ("continue proceed", "continue_approach",
+     r"(?:continue(?: for)?|proceed(?=(?: now| please| as cleared)?(?: \||$)))(?: now)?"
+     r"(?= runway|(?: please| as cleared)(?: \||$)"
+     r"|$| \|| traffic| expect| wind| [0-9]{1,2} (?:left|right|centre))",
      continues),
     ("continue", "continue_approach", r"continue(?= number [0-9])", continue_approach),
     ("backtrack backtracking", "backtrack", r"backtrack(?:ing)?", on_runway),

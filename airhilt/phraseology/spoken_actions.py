@@ -64,9 +64,10 @@ class _Slots:
     def place(self) -> str:
         """Its position: a taxiway spelled, or a place in words."""
         position = self.told.position or ""
-        if re.fullmatch(r"[A-Z][0-9]{0,2}", position):
-            return spell(position, self.style)
-        return with_digits(position, self.style)
+        spelled = re.sub(
+            r"(?<!\S)[0-9]*[A-Z][0-9]*(?!\S)", lambda found: spell(found[0], self.style), position
+        )
+        return with_digits(spelled, self.style)
 
     @property
     def at(self) -> str:

@@ -201,7 +201,10 @@ _EVENT = (
     rf"|(?:on |midfield )?{_LEG}|on (?:the )?(?:missed approach|stand|frequency)"
     r"|procedure turn inbound|airborne)(?!\S)"
 )
-_OTHER = rf"(?:(?!{FIX_ENDS}(?!\S)|\|)[a-z]+(?: (?!{FIX_ENDS}(?!\S))[a-z]+){{0,2}})"
+_OTHER = (
+    rf"(?:(?!(?:(?:the|your|an?) )?{FIX_ENDS}(?!\S)|\|)[a-z]+"
+    rf"(?: (?!{FIX_ENDS}(?!\S))[a-z]+){{0,2}})"
+)
 
 FORMS: Listed = (
     ("squawk squawking", "squawk", r"squawk(?:ing)?(?: number)? (?P<code>[0-7]{4})", squawk),

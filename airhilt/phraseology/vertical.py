@@ -298,6 +298,17 @@ def level_by_fix(segment: Segment, action: Action) -> Read | None:
     return Read(level_read, segment.start, found.end(), (read,))
 
 
+def from_level(segment: Segment, action: Action) -> Read | None:
+    """Read a level that is left for another one."""
+    left, _, _ = level_in(f" {segment.found['left']}", is_here=True)
+    feet, confidence, taken = level_in(segment.after, is_here=True)
+    if left is None or feet is None:
+        return None
+    sense: Sense = "climb" if feet > left else "descend"
+    read = Instruction(action, sense=sense, altitude_ft=feet, confidence=confidence)
+    return Read(read, segment.start, segment.found.end() + taken)
+
+
 def via_procedure(segment: Segment, action: Action) -> Read | None:
     """Read a climb or a descent along the restrictions of a procedure."""
     name = segment.found["name"]
@@ -344,6 +355,8 @@ CROSSINGS: Listed = (
 )  # fmt: skip
 """Forms of crossing restrictions, which come before those of crossing a runway."""
 FORMS: Listed = (
+    ("leave", "altitude",
+     rf"leave (?P<left>{LEVEL_WORDS}) for(?= {LEVEL_WORDS})", from_level),
     ("stop stopping", "altitude",
      r"stop(?:ping)? (?:(?:your|the|my) )?(?:climb|descent|descend)(?: at| and maintain)?",
      altitude),

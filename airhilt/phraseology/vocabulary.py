@@ -29,7 +29,7 @@ WORDS = frozenset(
      *CONDITIONS, *COURTESIES, *denials.DENIALS, *denials.OPEN, *denials.SOMEBODY,
      *denials.OTHERS, *denials.BETWEEN, *denials.SPOKEN_OF, *denials.AFTERWARDS, "departing",
      "winds", "surface", "waiting", "alert", "again", "incorrect",
-     "avoiding", "action"}
+     "avoiding", "action", "may"}
 ) - {"able"}  # fmt: skip
 """Words that the grammar knows. "Able" is none without its "when": that may be what is lost."""
 _RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY}")

@@ -207,3 +207,65 @@ def test_a_clause_means_the_same_beside_any_other(speak: Speak) -> None:
         if sorted(read, key=str) != sorted(pair, key=str):
             misread[text] = read
     assert misread == {}
+
+
+def test_a_condition_that_begins_with_if_holds_for_the_rest_of_the_call() -> None:
+    turn, climb = "turn left heading 270", "climb and maintain 3000"
+    for event in (
+        "if you go around", "if you have to go around", "in case you go around",
+        "in case of a go around", "in the event of a missed approach", "should you go around",
+        "on the go around", "for the missed approach", "if you cancel takeoff",
+    ):  # fmt: skip
+        given = [(each.action, each.condition) for each in told(f"{event}, {turn}, {climb}")]
+        assert given == [("heading", event), ("altitude", event)]
+
+
+def test_what_is_only_talked_about_is_no_order(subtests: pytest.Subtests) -> None:
+    for words in (
+        "you may have to go around", "you might have to hold short", "you may have to descend",
+        "thank you for the go around", "thanks for holding short", "stand by for a go around",
+        "the go around was because of traffic", "report the go around",
+    ):  # fmt: skip
+        with subtests.test(words):
+            assert told(words) == ()
+    assert {each.action for each in told("say reason for go around")} == {"say"}
+    assert told("I need you to go around") == told("you have to go around") == (I("go_around"),)
+
+
+def test_continue_alone_goes_on_with_the_taxi(subtests: pytest.Subtests) -> None:
+    for words in ("continue", "continue taxi", "continue taxiing", "proceed", "you may continue"):
+        with subtests.test(words):
+            assert told(words) == (I("taxi"),)
+    assert told("continue approach") == (I("continue_approach"),)
+
+
+def test_a_place_to_return_to_is_read(subtests: pytest.Subtests) -> None:
+    for words, place in (
+        ("taxi back to gate bravo one two", "gate B12"),
+        ("return to the fire station", "fire station"),
+        ("taxi into the run-up area", "run up area"),
+        ("continue to the ramp", "ramp"),
+    ):
+        with subtests.test(words):
+            assert told(words) == (I("taxi", position=place),)
+
+
+def test_a_runway_or_a_level_that_is_to_be_left_is_read() -> None:
+    assert told("leave runway 01 to the left") == (I("vacate", "01", turn="left"),)
+    assert told("leave eight thousand for five thousand") == (
+        I("altitude", sense="descend", altitude_ft=5000.0),
+    )
+    assert told("do one three sixty to the left") == (I("orbit", turn="left"),)
+
+
+def test_an_order_that_cannot_be_made_out_is_noticed(subtests: pytest.Subtests) -> None:
+    for words, unread in (
+        ("make s-turns for spacing", True), ("slow down", True),
+        ("runway 19 cleared for takeoff, make left turnout", True),
+        ("wait for the Cessna", True), ("taxi around the Cessna", True),
+        ("roger", False), ("good day", False), ("have a nice flight", False), ("go ahead", False),
+        ("braking action good", False), ("information kilo is current", False),
+        ("stay on this frequency", False), ("proceed direct LANDER", False),
+    ):  # fmt: skip
+        with subtests.test(words):
+            assert parse_call(f"American 123, {words}", KNOWN).unread is unread

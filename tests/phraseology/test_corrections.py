@@ -138,3 +138,19 @@ def test_what_else_is_told_stays() -> None:
     assert (taxi.via, taxi.confidence) == (("A", "C"), pytest.approx(MENDED))
     assert (hold.runway, hold.confidence) == ("01", 1.0)
     assert only("sorry, climb flight level 350").confidence == 1.0
+
+
+def test_what_stands_behind_disregard_is_an_order() -> None:
+    for words in ("disregard, hold position", "disregard my last, hold position"):
+        call = parse_call(f"American 123, {words}", ("AAL123",))
+        assert (call.kind, call.disregards) == ("disregard", True)
+        assert call.instructions == (Instruction("hold_position"),)
+    assert only("disregard, cross runway 01").confidence < 0.8
+
+
+def test_only_what_calls_before_told_is_disregarded_by_a_call_that_has_nothing_before() -> None:
+    for words, disregards in (
+        ("disregard", True), ("disregard the go around", True),
+        ("cross runway 15, disregard, hold short of runway 15", False), ("roger", False),
+    ):  # fmt: skip
+        assert parse_call(f"American 123, {words}", ("AAL123",)).disregards is disregards

@@ -158,7 +158,6 @@ def test_words_about_other_things_are_no_instruction(subtests: pytest.Subtests) 
         "stop squawk",
         "squawk standby",
         "maintain block flight level two zero zero through flight level two two zero",
-        "continue taxi",
         "deer park altimeter two niner niner two",
         "the aircraft ahead was assigned heading two one zero",
     ]:

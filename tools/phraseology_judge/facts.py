@@ -154,6 +154,7 @@ VALUES: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
     "hold_position": _nothing,
     "cross_runway": _named("runway"),
     "taxi": _taxi,
+    "continue_taxi": _nothing,
     "backtrack": _named("runway"),
     "vacate_runway": lambda item: {"point": item["value"], "turn": item["manner"]},
     "give_way": _nothing,
@@ -182,7 +183,8 @@ TURNS = frozenset({"heading", "turn_by", "runway_heading", "direct"})
 """Kinds that wait for the take-off that is cleared in the same call."""
 CLEARANCES = frozenset(
     {"takeoff", "landing", "option", "touch_and_go", "stop_and_go", "low_approach", "approach",
-     "line_up_and_wait", "cross_runway", "taxi", "backtrack", "pushback", "startup", "proceed"}
+     "line_up_and_wait", "cross_runway", "taxi",
+     "continue_taxi", "backtrack", "pushback", "startup", "proceed"}
 )  # fmt: skip
 """Kinds that need a clearance."""
 
@@ -334,6 +336,8 @@ def _kind_of(said: Instruction) -> str:
         return "vacate_runway"  # "Turn left at K" on the ground (FAA Order JO 7110.65, 3-10-9).
     if said.action == "speed" and said.named:
         return "named_speed"
+    if said.action == "taxi" and not (said.runway or said.position or said.via):
+        return "continue_taxi"
     return KIND_OF.get(said.action, said.action)
 
 

@@ -81,9 +81,13 @@ class Compliance:
     def take(self, heard: HeardCall) -> Decision:
         """Let an actor decide what it does of a call as it has taken it, and do that.
 
-        What the script plans for its words is done; of other words, what they order.
+        What the script plans for its words is done; of other words, what they order. After
+        "disregard", nothing is done that was told before.
         """
         call, actor, taken = heard.call, heard.listener, heard.understanding.call
+        if taken.disregards:
+            for one in self._obeyed.get(actor, ()):
+                one.in_force[actor] = ()
         planned = tuple(one for one in call.meant if one.actor == actor)
         is_scripted = planned or (call.scripted is not None and not call.is_of_person)
         if heard.understanding.kind == "as_said" and is_scripted:

@@ -167,9 +167,11 @@ class Listeners:
 
     def _as_said(self, heard: HeardCall) -> HeardCall:
         """Return a call as it is understood by who has heard every word."""
-        text = heard.said.text
-        meant = self._stations.listener(heard.call.frequency_khz).parse(text)
-        return replace(heard, text=text, understanding=Understanding("as_said", meant))
+        text, listener = heard.said.text, self._stations.listener(heard.call.frequency_khz)
+        if heard.call.is_of_person:
+            return replace(heard, text=text, understanding=listener.as_said(text))
+        understanding = Understanding("as_said", listener.parse(text))
+        return replace(heard, text=text, understanding=understanding)
 
     def _interpreted(self, heard: HeardCall, text: str, confidences: Confidences) -> HeardCall:
         """Return a call as a recipient understands the words that arrived.

@@ -105,7 +105,7 @@ class ReadbackPolicy:
             text = self._answers.read_you(listener, call.speaker)
         elif is_to_crew and taken.asks_again and CALLSIGN.search(taken.text):
             text = self._answers.callsign(listener)
-        elif is_to_crew and decision.accepted:
+        elif is_to_crew and (decision.accepted or taken.kind == "disregard"):
             text = self._answers.readback(listener, decision.accepted)
         elif is_to_crew and taken.kind == "question":
             text = self._answers.say_again(listener, call.speaker)

@@ -8,9 +8,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from airhilt.phraseology import TAU_ASR, Call, Instruction, agree, parse_call
+from airhilt.phraseology.call import STOPS
 from airhilt.world.actors.orders import Order, orders_of
 
 WORDLESS = Call()
+TAU_SAID = 0.7
+"""Confidence below which an instruction lacks something or makes no sense, although every word of
+it was heard: a number of one digit may not be part of another one then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,12 +61,14 @@ class Listener:
         """
         is_the_same = words(heard) == words(said)
         if is_the_same and word_confidences is None:
-            return Understanding("as_said", self.parse(said))
+            return self.as_said(said)
         taken = self.parse(heard, word_confidences)
         doubt = self._is_not_for(taken, known_by)
         if doubt == "not_for_me" and not is_the_same:
             return Understanding(doubt, taken)
         meant = self.parse(said)
+        if _leaves_open(taken):
+            return Understanding("unclear", taken)
         is_in_doubt = doubt == "unclear" or taken.confidence < TAU_ASR
         if is_in_doubt and (_wants_something(taken) or _wants_something(meant)):
             return Understanding("unclear", taken)
@@ -71,6 +77,11 @@ class Listener:
         if not taken.instructions:
             return Understanding("unclear", taken)
         return Understanding("otherwise", taken)
+
+    def as_said(self, said: str) -> Understanding:
+        """Return the understanding of a call by who has heard every word of it."""
+        taken = self.parse(said)
+        return Understanding("unclear" if _leaves_open(taken) else "as_said", taken)
 
     def overhear(
         self,
@@ -115,6 +126,18 @@ def _wants_something(call: Call) -> bool:
     return bool(call.instructions or call.asked) or call.kind in (
         "request", "say_again", "disregard", "radio_check", "question",
     )  # fmt: skip
+
+
+def _leaves_open(call: Call) -> bool:
+    """Return whether the words of an order leave open what is to be done.
+
+    What stops somebody is done all the same.
+    """
+    if not call.addressed_first or any(each.action in STOPS for each in call.instructions):
+        return False
+    is_instruction = call.kind in ("instruction", "correction", "disregard")
+    least = min((each.confidence for each in call.instructions), default=1.0)
+    return call.unread or (is_instruction and least < TAU_SAID)
 
 
 def mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:

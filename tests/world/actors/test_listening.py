@@ -172,3 +172,18 @@ def test_a_readback_of_another_clearance_differs() -> None:
     said = "Delta four five six, runway three three, continue holding, traffic landing."
     read = "Runway three three, cleared for takeoff, Delta four five six."
     assert LISTENER.differs(read, said)
+
+
+@pytest.mark.parametrize(
+    ("said", "kind"),
+    [
+        ("make s-turns for spacing", "unclear"),
+        ("taxi back for another departure", "unclear"),
+        ("go around, make left traffic", "as_said"),
+        ("have a nice day", "as_said"),
+        ("runway one, cleared to land", "as_said"),
+    ],
+)
+def test_an_order_that_nobody_can_make_out_is_asked_about(said: str, kind: str) -> None:
+    call = f"American one two three, {said}"
+    assert LISTENER.as_said(call).kind == sense(call, call).kind == kind
