@@ -155,6 +155,8 @@ def _hold_short(of: _Slots) -> str:
 def _taxi(of: _Slots) -> str:
     to = of.runway or of.place
     via = ", ".join(spell(each, of.style) for each in of.told.via)
+    if not to and not via:
+        return "continue"
     return join("taxi", f"to {to}" if to else "", f"via {via}" if via else "")
 
 

@@ -45,7 +45,15 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
-from airhilt.world.actors.actor import Act, Actor, Reaction, Unable, refusal_by, saying_unable
+from airhilt.world.actors.actor import (
+    Act,
+    Actor,
+    Reaction,
+    Unable,
+    do_nothing,
+    refusal_by,
+    saying_unable,
+)
 from airhilt.world.actors.air_phases import refusal_in_phase
 from airhilt.world.actors.approaches import Approaches
 from airhilt.world.actors.behind import BehindTraffic
@@ -210,6 +218,8 @@ class Crew:
         if isinstance(command, BehindCommand):
             self._plan(command.command)
             return self._behind.plan(command)
+        if isinstance(command, ContinueCommand) and not self.body.on_ground:
+            return do_nothing
         act = self._departure.plan(command) or self.runway_operations.plan_off_runway(command)
         if act is not None:
             return act
