@@ -61,7 +61,8 @@ _VERBS = (
 )  # fmt: skip
 """First words of orders."""
 _SIDE = re.compile(
-    r" ?(?:then |and )*mak(?:e|ing) (?:left|right)(?: hand)?(?: closed)? (?:traffic|turn ?out)(?!\S)"
+    r" ?(?:then |and )*mak(?:e|ing) (?:left|right)(?: hand)?(?: closed)?"
+    r" (?:traffic|turn ?out)(?!\S)"
 )
 """Words for the side of the circuit: no order where none is to be joined."""
 _ORDERS = re.compile(
