@@ -62,7 +62,7 @@ _VERBS = (
 """First words of orders."""
 _SIDE = re.compile(
     r" ?(?:then |and )*mak(?:e|ing) (?:left|right)(?: hand)?(?: closed)?"
-    r" (?:traffic|turn ?out)(?!\S)"
+    r" traffic(?!\S)"
 )
 """Words for the side of the circuit: no order where none is to be joined."""
 _ORDERS = re.compile(

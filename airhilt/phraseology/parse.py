@@ -174,7 +174,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         instructions=tuple(content.instructions),
         expected=tuple(content.expected),
         asked=tuple(content.asked),
-        unread=naming.addressed_first and content.is_unread,
+        unread=naming.addressed_first and content.is_unread and not content.asked,
         distress=DISTRESS in present,
         urgency=URGENCY in present,
         emergency_descent=EMERGENCY_DESCENT in text,

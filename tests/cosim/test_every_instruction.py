@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import random
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, get_args
@@ -176,15 +177,15 @@ def fault_of(
         answers = [each.replace(words, "") for each in answers]
     units = tuple(unit.lower() for unit in (TOWER, GROUND, DEPARTURE))
     answer = " ".join(each for each in answers if not each.startswith(units))
-    read_back = parse_call(answer, [callsign]).instructions
+    is_asked = "say again" in answer
+    read_back = parse_call(re.sub("say again.*", "", answer), [callsign]).instructions
     if (wrong := wrongly_done(read_back, callsign, done)) is not None:
         return wrong
     told = {each.action for each in read_back}
     missing = [each.action for each in given if each.action not in told]
     if "say" in missing and is_report(answer):
         missing.remove("say")
-    is_asked_again = "say again" in answer and not read_back
-    return f"no word of {missing}" if missing and not refused and not is_asked_again else ""
+    return f"no word of {missing}" if missing and not refused and not is_asked else ""
 
 
 def wrongly_done(
@@ -192,7 +193,9 @@ def wrongly_done(
 ) -> str | None:
     """Return how what was done differs from what the words of a readback order."""
     orders = orders_of(read_back, "01", VARIATION_DEG, callsign)
-    commands = dict.fromkeys(each.command for each in orders if each.command is not None)
+    commands = dict.fromkeys(
+        each.command for each in orders if each.command is not None and each.when is None
+    )
     ordered = [each.model_dump(mode="json", exclude_none=True) for each in commands]
     is_same = len(done) == len(ordered) and all(
         {name: value for name, value in does.items() if name in said or name not in UNSAID} == said

@@ -6,19 +6,13 @@ All of them need two and a half minutes of processor time:
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from seats import logged, said
-from tower_calls import SITUATIONS, Seen, scenario_of
-
-CALLS: list[dict[str, Any]] = json.loads(
-    Path(__file__).with_name("tower_calls.json").read_text(encoding="utf-8")
-)["calls"]
-"""Calls with the paragraph of the manual that has them: FAA Order JO 7110.65 or ICAO Doc 4444."""
+from tower_calls import CALLS, SITUATIONS, Seen, scenario_of
 
 
 @pytest.mark.slow

@@ -66,7 +66,8 @@ def playing(path: Path) -> tuple[str, ...]:
 def sit_down(page: Page, url: str, seat: str | None = None, uses: str = "voice") -> None:
     """Open the page and take a seat with what may be used; None: the first seat."""
     page.open(url, width=1280, height=720)
-    page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+    state = "document.getElementById('state').textContent"
+    page.wait_for(f"['paused', 'running'].some((one) => {state}.startsWith(one))")
     if seat is not None:
         page.evaluate(f"document.getElementById('seat-name').value = {seat!r}")
     page.evaluate(f"document.getElementById('seat-uses').value = {uses!r}")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 from shapely import Point
@@ -20,6 +21,10 @@ from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
 from seats import calls, contents
 
+CALLS: list[dict[str, Any]] = json.loads(
+    (Path(__file__).parent.parent / "station/tower_calls.json").read_text(encoding="utf-8")
+)["calls"]
+"""Calls with the paragraph of the manual that has them: FAA Order JO 7110.65 or ICAO Doc 4444."""
 TOWER, GROUND, DEPARTURE = "Washington Tower", "Washington Ground", "Potomac Departure"
 TOWER_KHZ, GROUND_KHZ, DEPARTURE_KHZ = 119_100, 121_700, 125_650
 LAYOUT = Layout(load_airport("KDCA"))

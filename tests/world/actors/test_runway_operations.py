@@ -495,7 +495,6 @@ GROUND_COMMANDS: tuple[dict[str, Any], ...] = (
     {"action": "taxi_to", "runway": "33"},
     {"action": "taxi_to", "place": "gate a2"},
     {"action": "hold_position"},
-    {"action": "continue"},
     {"action": "hold_short", "runway": "33"},
     {"action": "hold_short", "taxiway": "E"},
     {"action": "cross", "runway": "01"},
