@@ -174,7 +174,7 @@ def test_who_is_denied_the_microphone_is_told_and_can_type(
         assert page.evaluate(SAY_PLACE) == before  # It does not move under the hand.
         page.evaluate("document.getElementById('words').value = 'hello'")
         page.evaluate(SAY)
-    assert run.next() == SayText(text="hello")
+        assert run.next() == SayText(text="hello")
 
 
 @pytest.mark.parametrize("sound", [b"\0", bytes(32_002)])
