@@ -50,18 +50,21 @@ class SeatClient:
     def act(self, act: SeatAct) -> str:
         """Do something at the seat; return why that is refused, empty if it is not."""
         action = SeatAction(holder=self.holder, secret=self._secret, act=act)
+        payload = action.model_dump_json().encode()
         until_s = time.monotonic() + BEGINS_S
         with suppress(zenoh.ZError):  # The run has ended.
-            while True:  # A run that begins is seen before it is known where it answers.
-                for reply in self._session.get(
-                    f"{self._key}/do", payload=action.model_dump_json().encode(), timeout=ANSWERED_S
-                ):
-                    if reply.ok is not None:
-                        return SeatAnswer.model_validate_json(reply.ok.payload.to_bytes()).reason
-                if time.monotonic() > until_s:
-                    break
+            # A run that begins is seen before it is known where it answers.
+            while (reason := self._ask(payload)) is None and time.monotonic() < until_s:
                 time.sleep(BETWEEN_S)
+            return UNREACHABLE if reason is None else reason
         return UNREACHABLE
+
+    def _ask(self, payload: bytes) -> str | None:
+        """Return the reason in the answer of the run; None if nobody answers."""
+        for reply in self._session.get(f"{self._key}/do", payload=payload, timeout=ANSWERED_S):
+            if reply.ok is not None:
+                return SeatAnswer.model_validate_json(reply.ok.payload.to_bytes()).reason
+        return None
 
     def close(self) -> None:
         """Leave the seat, if it was taken: the token ends."""

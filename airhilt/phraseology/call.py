@@ -70,7 +70,7 @@ Kind = Literal[
 ]  # fmt: skip
 """Kind of a call; a hail has only the names of who is called and who calls."""
 Asks = Literal["able", "doing"]
-"""What a question asks: whether somebody can do something, or does it."""
+"""Subject of a question: whether somebody can do something, or does it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,7 +83,7 @@ class Read(NamedTuple):
     is_expected: bool = False
     """True if the words say what is to be expected."""
     asks: Asks | None = None
-    """What the words ask about the instruction; None if they do not ask by themselves."""
+    """Subject of the question that the words ask; None if they do not ask by themselves."""
 
 
 Builder = Callable[[Segment, Action], Read | None]

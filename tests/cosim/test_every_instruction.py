@@ -68,7 +68,7 @@ def instructions(*actions: Action) -> list[Instruction]:
 
 ACTIONS: list[Action] = [each for each in get_args(Action) if each not in REPORTS]
 LAST = instructions("contact", "monitor", "report")
-"""What a tower says at the end of a call of any kind."""
+"""Instructions at the end of a call of any kind."""
 TAXI = [
     *instructions("hold_position", "stop", "taxi", "follow", "give_way"),
     Instruction("taxi", runway="33", via=("J", "N")),

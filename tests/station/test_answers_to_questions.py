@@ -1,4 +1,4 @@
-"""What a tower asks is answered, and nothing is done because of it."""
+"""Questions of a tower: they are answered, and nothing is done because of them."""
 
 from __future__ import annotations
 

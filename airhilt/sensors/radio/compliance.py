@@ -337,7 +337,13 @@ class Compliance:
         """Let an actor tell its unit what that wants to hear of."""
         words = with_digits(command.words, self._context.radio.phraseology)
         text = self._context.answers.to_unit(actor, call.speaker, words)
-        told = RadioCall(f"{call.id}.report", call.frequency_khz, actor, call.speaker, text)
+        told = RadioCall(
+            f"{call.id}.report-{command.words.replace(' ', '-')}",
+            call.frequency_khz,
+            actor,
+            call.speaker,
+            text,
+        )
         self._speakers.say_later(told, REPORTS_AFTER_S)
 
     def _do_on_condition(self, call: RadioCall, scripted: ScriptedCommand) -> None:

@@ -57,8 +57,8 @@ class Listeners:
         self._policy = policy
         self._controllers = controllers
         self._waiting: dict[str, list[Callable[[str, Confidences], None]]] = {}
-        """What is done with the words of a transmission, by its id, once its transcript is there,
-        or without words if there is none."""
+        """Actions that wait for the words of a transmission, by its id: for its transcript, or for
+        none."""
 
     # --- by ear -----------------------------------------------------------------------------
 

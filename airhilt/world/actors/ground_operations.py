@@ -74,7 +74,7 @@ class GroundOperations:
         self._gives_way: Passage | None = None
         self._leader: Actor | None = None
         self._awaited: tuple[FollowCommand, Actor, Place] | None = None
-        """Who is followed once it has passed, and where it was seen last."""
+        """Command to follow somebody once it has passed, who that is, and its last place."""
 
     # --- commands -----------------------------------------------------------------------------
 

@@ -128,7 +128,7 @@ class Order:
     question: str = ""
     """What the actor asks before it can be carried out; empty if nothing is missing."""
     when: Condition | None = None
-    """What the actor waits for before it carries it out."""
+    """Condition that the actor waits for; None: it carries it out now."""
 
 
 def orders_of(
@@ -164,13 +164,10 @@ def orders_of(
             and not _is_turn_at(each)
             and (heading_deg is not None or (climbs and each.heading_deg is None))
         )
-        follows = any(one.instruction.action == "follow" for one in orders)
         if each.action == "report":
             orders.append(_report(each, callsign, orders))
         elif each.action in NOTHING_MOVES or is_level or is_part:
             orders.append(Order(each))
-        elif each.action == "taxi" and follows:
-            orders.append(Order(each))  # Its way is that of who is followed.
         else:
             order = _order(each, bound_runway, level_ft, variation_deg, details)
             if each.condition is not None and order.command is not None:
@@ -234,11 +231,13 @@ def _details(given: Sequence[Instruction]) -> list[_Detail]:
     short = tuple(each for each in given if each.action == "hold_short" and _short_of(each))
     names = tuple(_short_of(each) for each in short)
     least = tuple(each for each in given if each.action == "altitude" and each.bound == "or_more")
+    if "follow" in does:  # Its way is that of who is followed.
+        first = next(index for index, each in enumerate(given) if each.action == "follow")
+        to = tuple(each for each in given[first:] if each.action == "taxi")
+        return [_Detail((*short, *to), FollowCommand, {"hold_short": names})]
     if taxis:
         told = {"cross": tuple(each.runway for each in crossed), "hold_short": names}
         return [_Detail((*crossed, *short), TaxiToCommand, told)]
-    if "follow" in does:
-        return [_Detail(short, FollowCommand, {"hold_short": names})]
     if "cleared_to_land" in does and short and short[0].runway:
         return [_Detail(short[:1], LandCommand, {"hold_short": short[0].runway})]
     if "low_approach" in does and least:

@@ -35,7 +35,7 @@ EMPTY = frozenset(
 )  # fmt: skip
 """Words around the name of other traffic that do not tell it from others."""
 Passing = Literal["landing", "departing", "passing"]
-"""What traffic does when it passes."""
+"""Movement of traffic when it passes."""
 DOING: Mapping[str, frozenset[str]] = {
     "final": frozenset({"en_route", "approach", "orbit", "glide", "flare"}),
     "landing": frozenset({"glide", "flare", "rollout"}),

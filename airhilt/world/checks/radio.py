@@ -23,7 +23,7 @@ from airhilt.world.flight.aircraft_type import load_aircraft_type
 
 GENERATED_ID = re.compile(
     r"^(?:stuck-microphone|microphone|seat|controller|ra|arrival|unable|advisory)\.|"
-    r"\.(?:readback|correction|request|contact|end|(?:repeat|say-again|confirmation)-[0-9]+)$",
+    r"\.(?:readback|correction|request|contact|end|report-[a-z0-9-]+|(?:repeat|say-again|confirmation)-[0-9]+)$",
     re.IGNORECASE,
 )
 """Beginnings and endings of the ids of calls that are not in the script (docs/radio.md)."""

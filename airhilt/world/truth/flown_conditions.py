@@ -22,10 +22,6 @@ from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
 from airhilt.world.mover import Mover
 from airhilt.world.site import ScenarioSite
 
-FLOWN = (
-    InPhase, SpeedAbove, HeightBelow, HeightAbove, AltitudeReached, AirspeedReached, TrackReached,
-    FixPassed,
-)  # fmt: skip
 FlownCondition = (
     InPhase | SpeedAbove | HeightBelow | HeightAbove | AltitudeReached | AirspeedReached
     | TrackReached | FixPassed

@@ -257,8 +257,39 @@ def test_an_actor_is_off_the_runways_on_the_ground_or_only_after_it_was_on_one()
     assert off("BB", car_along_m=-400.0)
     assert not off("BB")
     assert not off("AA", along_m=-3000.0)
-    leaves = Airport({"type": "off_runways", "actor": "BB", "has_been_on": True}, car_along_m=-400)
+    only_after = {"type": "off_runways", "actor": "BB", "has_been_on": True}
+    assert not Airport(only_after, car_along_m=-400.0)()
+    leaves = Airport(only_after)
     assert not leaves()
+    leaves.watch.aircraft["BB"].state = (
+        Airport(only_after, car_along_m=-400.0).watch.aircraft["BB"].state
+    )
+    assert leaves()
+
+
+@pytest.mark.parametrize(
+    ("leg", "within_nm", "true"),
+    [("final", None, True), ("final", 1.7, True), ("final", 1.5, False), ("base", None, False)],
+)
+def test_an_arrival_is_on_final_within_a_distance_of_its_threshold(
+    leg: str, within_nm: float | None, true: bool
+) -> None:
+    """3000 m before it, which is 1.62 NM."""
+    condition = {"type": "on_leg", "actor": "AA", "leg": leg, "within_nm": within_nm}
+    assert Airport(condition)() == true
+
+
+@pytest.mark.parametrize(
+    ("turned_deg", "leg"), [(90.0, "base"), (-90.0, "base"), (180.0, "downwind")]
+)
+def test_a_leg_is_told_by_the_track_against_the_runway(turned_deg: float, leg: str) -> None:
+    arrival = Airport({"type": "on_leg", "actor": "AA", "leg": leg})
+    plane = arrival.watch.aircraft["AA"]
+    track = plane.state.track_rad + math.radians(turned_deg)
+    plane.state = plane.state._replace(
+        velocity_east_m_s=72.0 * math.sin(track), velocity_north_m_s=72.0 * math.cos(track)
+    )
+    assert arrival()
 
 
 def test_the_threshold_is_within_a_time_of_an_arrival(subtests: pytest.Subtests) -> None:

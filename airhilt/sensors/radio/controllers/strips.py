@@ -45,7 +45,7 @@ class Given:
     readback: RadioCall | None = None
     """The last readback of it."""
     is_read_back: bool | None = None
-    """Whether it was read back as it was; None: it was not read back since that call."""
+    """True if it was read back as it was; None: it was not read back since that call."""
 
 
 @dataclass(slots=True)
@@ -55,7 +55,7 @@ class Strip:
     contact: Contact | None = None
     """The last exchange; None before the first."""
     instructions: dict[RadioCall, Given] = field(default_factory=dict)
-    """What it was told, by the calls that said so first, in the order of the last ones."""
+    """Instructions to it, by the calls that gave them first, in the order of the last ones."""
     correction: RadioCall | None = None
     """Call that gives an instruction again because of its readback; None once it is answered."""
     runway_use: Action | None = None
@@ -67,7 +67,7 @@ class Strip:
 
     @property
     def last(self) -> Given | None:
-        """What it was told last."""
+        """Its last instruction; None before the first."""
         return next(reversed(self.instructions.values()), None)
 
 

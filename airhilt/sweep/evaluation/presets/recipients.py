@@ -1,4 +1,4 @@
-"""Who is told: crews, the controller, or both, over all families and response models.
+"""Preset of who is told: crews, the controller, or both, over families and response models.
 
 The assistant is the same, and so are its advisories; their recipients differ, and how people
 respond.
@@ -29,7 +29,7 @@ NEED_CAMERAS = ("S01C", "S02C")
 MOST_SEEDS_WITH_CAMERAS = 3
 """Greatest number of seeds of runs with cameras, which take minutes each."""
 TOLD = ("crew", "controller", "both")
-"""Who is told: the values of the option ``recipients``."""
+"""Values of the option ``recipients``."""
 CREWS = "crews"
 MODELS: tuple[str, ...] = get_args(ResponseModelName)
 """Response models: the values of the option ``crews``."""
