@@ -269,6 +269,7 @@ class Simulation:
             self._director,
             self._setup.actors,
             self._context.event,
+            self._world.tell,
             is_voiced=self._participants.does("tts"),
             speak_min_level=self._participants.speak_min_level,
             is_on_frequency=self._setup.options.advisory_channel == "frequency",

@@ -155,7 +155,7 @@ class WorldLoop:
             self._context.event("command", callsign, command.model_dump_json(exclude_none=True))
             why = self.obey(callsign, command)
             if why is not None:
-                self._say_unable(callsign, why)
+                self.tell(callsign, why)
 
     def refusal(self, callsign: str, command: Command) -> str | None:
         """Return why an actor cannot carry out a command now, as it says it; None: it can."""
@@ -182,9 +182,10 @@ class WorldLoop:
                 given = ActorCommand(t_ns=t_ns, command=command)
                 self._publish(f"command/{key.split('/')[1]}", given)
 
-    def _say_unable(self, callsign: str, why: str) -> None:
+    def tell(self, callsign: str, words: str) -> None:
+        """Let an actor tell its unit something of its own accord, where there is a radio."""
         if self.radio is not None:
-            self.radio.say_unable(callsign, why)
+            self.radio.tell(callsign, words)
 
     def obey(self, callsign: str, command: Command) -> str | None:
         """Let an actor carry out a command; return why it cannot, or None.
@@ -259,7 +260,7 @@ class WorldLoop:
                     actor.attend()
                 except Unable as unable:
                     self._context.event("unable", actor.spec.callsign, str(unable))
-                    self._say_unable(actor.spec.callsign, str(unable))
+                    self.tell(actor.spec.callsign, str(unable))
         self._triggers.evaluate(now_ns)
         self._begin_if_due()
         self._move_window()

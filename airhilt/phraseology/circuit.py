@@ -27,7 +27,8 @@ _CLEARED = re.compile(r" (?:cleared|clear|line)(?!\S)")
 def on_leg(segment: Segment, action: Action) -> Read | None:
     """Read a leg of the circuit, the side of its turns and its runway.
 
-    A runway right before another action is also that of a clearance.
+    A runway right before another action is also that of a clearance. "Make left traffic" names the
+    circuit alone, which is entered on its downwind leg.
     """
     parts = segment.found.groupdict()
     runway = _RUNWAY_BEHIND.match(segment.after) if action in _ON_RUNWAY else None
@@ -39,7 +40,7 @@ def on_leg(segment: Segment, action: Action) -> Read | None:
     read = Instruction(
         action,
         designator(*runway.group(2, 3)) if runway else None,
-        parts.get("leg"),
+        parts.get("leg") or ("downwind" if action == "join" else None),
         turn=cast("Turn | None", parts.get("turn") or parts.get("turn_behind")),
         immediate=action == "join" and _NOW.match(segment.found[0]) is not None,
         confidence=sure,
@@ -64,6 +65,9 @@ FORMS: Listed = (
      rf"(?:mak(?:e|ing)|join(?:ing)?|enter(?:ing)?)(?: (?:the|a|your))? {_SIDE}"
      rf"(?P<leg>{_LEG}|straight in)(?: (?:leg|approach))?(?: (?P<turn_behind>left|right) hand)?",
      on_leg),
+    ("make making enter entering fly left right", "join",
+     r"(?:(?:mak(?:e|ing)|enter(?:ing)?|fly) |(?<![0-9] ))(?P<turn>left|right)(?: hand)?"
+     r"(?: closed)? (?:traffic|circuits?)(?: pattern)?(?: approved)?", on_leg),
     ("turn", "join",
      rf"turn (?:now )?(?:(?:on )?to )?(?:the |a |your )?{_SIDE}(?P<leg>{_LEG})(?: leg)?(?: now)?",
      on_leg),

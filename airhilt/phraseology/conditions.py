@@ -57,7 +57,7 @@ YIELDED: frozenset[Action] = frozenset({"give_way", "follow"})
 """Actions that a taxi route waits for after "then"."""
 _MOVED = frozenset({"taxi", "vacate", "cross", "hold_short", "backtrack", "push_back"})
 """Actions on the ground that another unit waits for after "then"."""
-IN_FLIGHT: frozenset[Action] = frozenset({"heading", "direct", "turn_by"})
+IN_FLIGHT: frozenset[Action] = frozenset({"heading", "direct", "turn_by", "join"})
 """Actions that wait for the take-off that is cleared in the same call."""
 WITHDRAWN: dict[Action, Action] = {
     "cancel_takeoff": "cleared_for_takeoff",

@@ -60,11 +60,6 @@ _VERBS = (
     "take(?! care)", "intercept", "recycle", "reset", "adjust", "divert", "extend", "resume",
 )  # fmt: skip
 """First words of orders."""
-_SIDE = re.compile(
-    r" ?(?:then |and )*mak(?:e|ing) (?:left|right)(?: hand)?(?: closed)?"
-    r" traffic(?!\S)"
-)
-"""Words for the side of the circuit: no order where none is to be joined."""
 _ORDERS = re.compile(
     r"[ |]*(?:(?:and|then|also|now|please|just|so|okay|ok|roger|you|can|may|thanks|thank) )*"
     rf"(?:{'|'.join(_VERBS)})(?!\S)"
@@ -112,9 +107,7 @@ def content_of(words: Words) -> Content:
     put_in_order(clauses, line.texts, text)
     gaps = _gaps(clauses, line, plain)
     content.is_unread = any(
-        _ORDERS.match(plain, gap.start, gap.end)
-        and not _SIDE.match(plain, gap.start)
-        and (len(gap.words) > 2 or gap.end == len(plain))
+        _ORDERS.match(plain, gap.start, gap.end) and (len(gap.words) > 2 or gap.end == len(plain))
         for gap in gaps
     )
     if gaps:

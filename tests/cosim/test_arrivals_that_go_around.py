@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import airhilt
+from airhilt.record import open_run
 from airhilt.scenario import Scenario
 from seats import calls, logged
 from tower_calls import TOWER, TOWER_KHZ, Seen, scenario_of
@@ -35,3 +37,19 @@ def test_an_arrival_that_went_around_is_sent_round_the_circuit_and_cleared_to_la
     (cleared,) = [number for number, text in enumerate(said) if "cleared to land" in text]
     assert joins < cleared
     assert Seen(log, "AAL123", 60.0).lands_on("01")
+
+
+def test_a_crew_that_goes_around_on_advice_says_so_and_its_tower_acts_on_that(
+    tmp_path: Path,
+) -> None:
+    out = tmp_path / "run"
+    airhilt.run(
+        "s01a_tight_timing", out=out, recipients="crew", speech=False, cameras=False, report=False,
+        latency="fixed",
+    )  # fmt: skip
+    said = [
+        (each["speaker"], each["text"].lower()) for each in calls(list(open_run(out).messages()))
+    ]
+    tells = said.index(("AAL123", "washington tower, american one twenty three, going around."))
+    after = [text for speaker, text in said[tells:] if speaker != "AAL123"]
+    assert any("downwind" in text for text in after)

@@ -163,7 +163,7 @@ def test_a_call_says_what_about_which_runway(subtests: pytest.Subtests) -> None:
         ("wildlife report, two deer near runway one niner", [("wildlife", "19")]),
         ("the geese have left runway zero four", [("wildlife_gone", "04")]),
         ("right traffic runway zero one, cleared to land runway zero one",
-         [("cleared_to_land", "01")]),
+         [("join", "01"), ("cleared_to_land", "01")]),
         ("continue holding, traffic landing runway zero one", [("hold_position", None)]),
         ("climb and maintain flight level three three zero", [("altitude", None)]),
         ("mayday, bird strike, engine failure", []),

@@ -52,7 +52,7 @@ def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(
     table = [
         "clearance.repeat-1", "clearance.say-again-12", "clearance.readback",
         "readback.correction", "readback.correction.readback", "stuck-microphone.AAL123.9.119100",
-        "clearance.Repeat-1", "arrival.AAL123.1", "unable.AAL123.1", "clearance.contact",
+        "clearance.Repeat-1", "arrival.AAL123.1", "tells.AAL123.1", "clearance.contact",
         "clearance.end", "readback.confirmation-1.request", "seat.AAL123.1",
         "microphone.AAL123.1",
     ]  # fmt: skip

@@ -37,7 +37,6 @@ OPTIONS = (
     "--no-cameras",
     "--no-report",
 )
-ONE_CALL = [call for call in CALLS if "then" not in call]
 SPOKEN = (
     "cleared-to-land", "immediate-from-hold", "taxi-papa-one-five", "monitor-ground-again",
     "taxi-cross-hold-short", "go-around-vehicle", "go-around-left-turn", "contact-departure",
@@ -64,7 +63,8 @@ def seen_of(call: dict[str, Any], out: Path) -> Seen:
     log = list(open_run(out).messages())
     acts = contents(log, "seat/Washington_Tower/do")
     said = [act["t_ns"] for act in acts if act["act"]["do"] in ("text", "press")]
-    return Seen(log, SITUATIONS[call["situation"]][0], said[-1] / SECOND_NS)
+    first = said[-1 - len(call.get("then", ()))]
+    return Seen(log, SITUATIONS[call["situation"]][0], first / SECOND_NS)
 
 
 def wait_until(page: Page, at_s: float) -> None:
@@ -86,7 +86,7 @@ def scenario_file(call: dict[str, Any], path: Path, more_s: float) -> Path:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("call", ONE_CALL, ids=[call["id"] for call in ONE_CALL])
+@pytest.mark.parametrize("call", CALLS, ids=[call["id"] for call in CALLS])
 def test_what_is_typed_at_the_seat_of_a_tower_is_done_or_refused(
     call: dict[str, Any], tmp_path: Path
 ) -> None:
@@ -96,9 +96,10 @@ def test_what_is_typed_at_the_seat_of_a_tower_is_done_or_refused(
         page_with_microphone() as page,
     ):
         sit_down(page, url, uses="words")
-        page.evaluate(f"document.getElementById('words').value = {call['text']!r}")
-        wait_until(page, SITUATIONS[call["situation"]][2])
-        page.evaluate(SAY)
+        for each in (call, *call.get("then", ())):
+            page.evaluate(f"document.getElementById('words').value = {each['text']!r}")
+            wait_until(page, SITUATIONS[call["situation"]][2] + each.get("after_s", 0.0))
+            page.evaluate(SAY)
         watch_to_end(page)
     seen = seen_of(call, out)
     for expected in call["expected"]:

@@ -100,14 +100,16 @@ def _wind(item: Mapping[str, Any]) -> dict[str, Any]:
 def _in_circuit(item: dict[str, Any]) -> dict[str, Any]:
     """Return what an item of the kind "circuit" says by its manner: "left base", "short approach".
 
-    The side of the circuit ("left traffic") is out of scope.
+    Who is given the side of the circuit alone ("left traffic") enters it on its downwind leg.
     """
     manner = (item["manner"] or "").replace("_", " ").replace(" hand", "")
+    manner += " traffic" if manner in ("left", "right") else ""
     if manner == "short approach":
         return {**item, "kind": "short_approach"}
     leg = manner.removeprefix("extended ").removeprefix("extend ")
     side = leg.split()[0] if leg.startswith(("left ", "right ")) else None
     leg = leg.removeprefix("left ").removeprefix("right ")
+    leg = "downwind" if side and leg in ("traffic", "closed traffic") else leg
     kind = "extend" if "extend" in manner else "join" if leg in LEGS else "circuit"
     return {**item, "kind": kind, "value": {"runway": item["value"], "leg": leg, "turn": side}}
 

@@ -75,7 +75,7 @@ class RadioConversation:
         self._speakers = Speakers(context, arbiter)
         self._person_calls = PersonCalls(context, self._speakers.said)
         self._microphones = Microphones(context.director, arbiter, context.seats)
-        self._unables = 0
+        self._tellings = 0
         """Number of calls about what an actor cannot do any more."""
         self._compliance = Compliance(context, self._speakers)
         self._policy = policy = ReadbackPolicy(context, self._calls, self._speakers)
@@ -176,13 +176,13 @@ class RadioConversation:
         """Return whether one of two waits for the other to repeat or to read back something."""
         return self._policy.has_question(one, other) or self._controllers.awaits_answer(one, other)
 
-    def say_unable(self, callsign: str, why: str) -> None:
-        """Let an actor tell the unit that it is with what it cannot do any more, and why."""
+    def tell(self, callsign: str, words: str) -> None:
+        """Let an actor tell the unit that it is with what it does, or cannot do any more."""
         contact = self._controllers.contact(callsign)
         if contact is not None:
-            self._unables += 1
-            name = f"unable.{key_chunk(callsign)}.{self._unables}"
-            text = self._context.answers.to_unit(callsign, contact.unit, why)
+            self._tellings += 1
+            name = f"tells.{key_chunk(callsign)}.{self._tellings}"
+            text = self._context.answers.to_unit(callsign, contact.unit, words)
             call = RadioCall(name, contact.frequency_khz, callsign, contact.unit, text)
             self._speakers.say_later(call)
 

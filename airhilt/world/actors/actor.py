@@ -56,6 +56,8 @@ class Reaction:
     text: str
     responds: bool = True
     """False: the actor does nothing, as its response model says."""
+    tells: Callable[[], str] = str
+    """Returns what the actor tells its unit that does it now; empty: nothing."""
 
     @classmethod
     def none(cls, to: str) -> Reaction:

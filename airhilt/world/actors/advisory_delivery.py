@@ -71,6 +71,7 @@ class AdvisoryDelivery:
         director: Director,
         actors: Mapping[str, Actor],
         event: Callable[[EventKind, str, str], None],
+        tell: Callable[[str, str], None],
         *,
         is_voiced: bool,
         speak_min_level: Severity = SPEAK_MIN_LEVEL,
@@ -79,6 +80,7 @@ class AdvisoryDelivery:
     ) -> None:
         self._director = director
         self._event = event
+        self._tell = tell
         self._is_voiced = is_voiced or is_on_frequency
         self._speak_min_level = speak_min_level
         self._is_on_frequency = is_on_frequency
@@ -224,9 +226,12 @@ class AdvisoryDelivery:
             return
         if not self._counts(advisory, is_equipment):
             return
+        tells = reaction.tells()
         try:
             if reaction.act():
                 text = f"{reaction.text} ({advisory.id})"
                 self._event("pilot_reacts", advisory.recipient, text)
+                if tells:
+                    self._tell(actor.spec.callsign, tells)
         except Unable as unable:
             self._event("unable", advisory.recipient, str(unable))

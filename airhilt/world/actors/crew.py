@@ -310,7 +310,20 @@ class Crew:
             response.delay_s,
             lambda: self._follow(advisory, recommendation, response),
             f"follows {recommendation.action}{response.manner}",
+            tells=lambda: self._tells(recommendation),
         )
+
+    def _tells(self, recommendation: Recommendation) -> str:
+        """Return what the crew tells its unit that follows a recommendation now.
+
+        ICAO Doc 4444, 12.3.4.18 and 12.3.4.11.
+        """
+        match recommendation:
+            case GoAround():
+                return "going around"
+            case CancelTakeoff() if self.body.phase == "takeoff_roll":
+                return "stopping"
+        return ""
 
     def _follow(
         self, advisory: Advisory, recommendation: Recommendation, response: Response

@@ -13,6 +13,7 @@ from airhilt.commands import (
     CrossCommand,
     DirectCommand,
     EnterCommand,
+    GoAroundCommand,
     LandCommand,
     LineUpCommand,
     SpeedCommand,
@@ -26,6 +27,7 @@ from airhilt.phraseology.slots import FIX, LEVEL_HERE, level_ft
 from airhilt.phraseology.vertical import level_in
 from airhilt.scenario.models import (
     AirspeedReached,
+    AllOf,
     AltitudeReached,
     Condition,
     FixPassed,
@@ -137,6 +139,12 @@ def done(command: Command, callsign: str) -> Condition | None:
             return HeightAbove(type="height_above", actor=callsign, height_ft=DEPARTED_FT)
         case LineUpCommand():
             return InPhase(type="in_phase", actor=callsign, phases=("lined_up",))
+        case GoAroundCommand():
+            return HeightAbove(type="height_above", actor=callsign, height_ft=DEPARTED_FT)
+        case LandCommand(then=then) if then != "full_stop":
+            again = InPhase(type="in_phase", actor=callsign, phases=("climb_out", "go_around"))
+            high = HeightAbove(type="height_above", actor=callsign, height_ft=DEPARTED_FT)
+            return AllOf(type="all_of", conditions=(again, high))
         case VacateCommand() | TurnAtCommand() | LandCommand():
             return OffRunways(type="off_runways", actor=callsign)
         case CrossCommand():

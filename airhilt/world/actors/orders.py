@@ -172,10 +172,8 @@ def orders_of(
             order = _order(each, bound_runway, level_ft, variation_deg, details)
             if each.condition is not None and order.command is not None:
                 order = _once(each, order.command, callsign, orders)
-            elif isinstance(order.command, ContactCommand) and orders:
-                last = orders[-1].command
-                if isinstance(last, VacateCommand | TurnAtCommand):
-                    order = Order(each, order.command, when=done(last, callsign))
+            elif orders and (last := orders[-1].command) and _follows(order.command, last):
+                order = Order(each, order.command, when=done(last, callsign))
             if heading_deg is not None and isinstance(order.command, TakeOffCommand):
                 track_deg = (heading_deg + variation_deg) % 360.0
                 command = order.command.model_copy(update={"track_deg": track_deg})
@@ -184,6 +182,17 @@ def orders_of(
         if each.action in APPROACHES and each.runway is not None:
             bound_runway = each.runway
     return tuple(orders)
+
+
+def _follows(command: Command | None, last: Command) -> bool:
+    """Return whether a command waits for the one before it in the call, which need not be said."""
+    match command:
+        case ContactCommand():
+            return isinstance(last, VacateCommand | TurnAtCommand)
+        case JoinCommand():
+            is_again = isinstance(last, LandCommand) and last.then != "full_stop"
+            return is_again or isinstance(last, GoAroundCommand)
+    return False
 
 
 def _report(told: Instruction, callsign: str, before: Sequence[Order]) -> Order:

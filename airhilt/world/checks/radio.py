@@ -22,7 +22,7 @@ from airhilt.scenario.problems import Problem, unknown
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 
 GENERATED_ID = re.compile(
-    r"^(?:stuck-microphone|microphone|seat|controller|ra|arrival|unable|advisory)\.|"
+    r"^(?:stuck-microphone|microphone|seat|controller|ra|arrival|tells|advisory)\.|"
     r"\.(?:readback|correction|request|contact|end|report-[a-z0-9-]+|(?:repeat|say-again|confirmation)-[0-9]+)$",
     re.IGNORECASE,
 )
@@ -43,7 +43,7 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
                 f"{path}/id",
                 f"found {line.id!r}, which is how calls that are not in the script are named; "
                 "expected an id that neither begins with stuck-microphone., microphone., seat., "
-                "controller., ra., arrival., unable. or advisory., nor ends with .readback, "
+                "controller., ra., arrival., tells. or advisory., nor ends with .readback, "
                 ".correction, .request, .contact, .end, .repeat-1, .say-again-1 or "
                 ".confirmation-1",
             )

@@ -92,6 +92,7 @@ class Told:
         director = Director(Virtual())
         self.crew = Crew(unable, responds)
         self.events: list[tuple[str, str, str, float]] = []
+        self.told: list[tuple[str, ...]] = []
 
         def event(kind: str, subject: str, text: str) -> None:
             self.events.append((kind, subject, text, director.now_ns / SECOND_NS))
@@ -100,6 +101,7 @@ class Told:
             director,
             {"AAL123": cast(Any, self.crew)},
             event,
+            lambda *told: self.told.append(told),
             is_voiced=voiced,
             seats=Seats((), lambda _key, _state: None, director),
         )
@@ -249,6 +251,7 @@ def told_with_person(*, taken_s: float, left_s: float, until_s: float | None = N
         director,
         {"AAL123": cast(Any, crew)},
         lambda *_: reacted_s.append(director.now_ns / SECOND_NS),
+        lambda *_: None,
         is_voiced=False,
         seats=cast(Seats, SimpleNamespace(has_person=has_person)),
     )
