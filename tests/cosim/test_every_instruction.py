@@ -179,6 +179,8 @@ def fault_of(
     answer = " ".join(each for each in answers if not each.startswith(units))
     is_asked = "say again" in answer
     read_back = parse_call(re.sub("say again.*", "", answer), [callsign]).instructions
+    if is_report(answer) and any(each.action == "say" for each in given):
+        read_back = tuple(each for each in read_back if each.action != "altitude")
     if (wrong := wrongly_done(read_back, callsign, done)) is not None:
         return wrong
     told = {each.action for each in read_back}

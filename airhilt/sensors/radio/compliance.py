@@ -130,7 +130,11 @@ class Compliance:
             for command, when in commands.items()
         )
         if refused.get("surface") or refused.get("approach"):
-            accepted = [each for each in accepted if each.instruction.action not in ON_THE_WAY]
+            accepted = [
+                each
+                for each in accepted
+                if each.command in commands or each.instruction.action not in ON_THE_WAY
+            ]
         read_back: list[Instruction | str] = [each.instruction for each in accepted]
         read_back += self._answered(taken, actor)
         decision = Decision(scripted, tuple(read_back), tuple(dict.fromkeys(unable)))

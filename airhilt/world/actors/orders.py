@@ -84,8 +84,8 @@ BEHIND = re.compile(
 """Condition to wait for other traffic (ICAO Doc 4444, 12.2.7: "behind landing 737")."""
 WAITING = get_args(BehindCommand.model_fields["command"].annotation)
 """Commands that wait for other traffic."""
-ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short"})
-"""Actions that are part of another clearance in the same call: to taxi, to follow, to land."""
+ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short", "taxi"})
+"""Actions that may be part of another clearance in the same call: to taxi, to follow, to land."""
 
 
 Subject = Literal["level", "speed", "track", "approach", "radio", "report", "surface"]
