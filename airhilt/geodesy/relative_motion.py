@@ -40,6 +40,11 @@ class Relative(NamedTuple):
         """Horizontal distance."""
         return math.hypot(self.north_m, self.east_m)
 
+    @property
+    def speed_m_s(self) -> float:
+        """Horizontal speed against each other."""
+        return math.hypot(self.velocity_north_m_s, self.velocity_east_m_s)
+
     def at(self, time_s: float) -> Relative:
         """Return the relative state ``time_s`` later, both flying straight on."""
         return Relative(

@@ -24,7 +24,7 @@ from airhilt.surveillance import tcas
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 from airhilt.world.flight import Aircraft
 from airhilt.world.mover import Mover
-from airhilt.world.truth.gaps import gap, radius_m
+from airhilt.world.truth.gaps import NARROW_M, gap, radius_m
 
 NMAC = Minima(500 * FOOT, 100 * FOOT)
 """Minima of a near mid-air collision: 500 ft horizontally and 100 ft vertically (RTCA DO-365)."""
@@ -36,9 +36,6 @@ ZONE_RADIUS_M = 5.0 * NAUTICAL_MILE
 be lost there, but near mid-air collisions, collisions and runway incursions count."""
 ZONE_HEIGHT_M = 2_500.0 * FOOT
 """Height of the zone above the ground, in m."""
-TOUCHING_WITHIN_M = 150.0
-"""Gap between the circles around two bodies, in m, below which a pair is watched at every tick. Two
-aircraft at 140 kt close by less in the second until the pairs are selected again."""
 TCAS_RANGE_M = 40_000.0
 """Horizontal distance in m beyond which no pair is within a TCAS threshold."""
 TCAS_HEIGHT_M = 3_000.0
@@ -228,7 +225,8 @@ class ConflictMonitor:
                 ):
                     self._check_tcas(now_ns, pair, motion)
             else:
-                near = distance < radius_m(own) + radius_m(its) + TOUCHING_WITHIN_M
+                in_a_second_m = distance - motion.speed_m_s
+                near = in_a_second_m < radius_m(own) + radius_m(its) + NMAC.horizontal_m
             if near:
                 self._near.append(pair)
             elif pair in self._always:
@@ -303,23 +301,22 @@ class ConflictMonitor:
         """Record the phases of a pair at its closest approach, ``back_s`` (0 or less) from now."""
         _, horizontal, vertical = near
         first, second = (self._bodies[name] for name in pair)
+        both_fly = self._in_flight(pair[0]) and self._in_flight(pair[1])
         too_near = horizontal < self._minima.horizontal_m
         too_level = vertical < self._minima.vertical_m
-        is_nmac = horizontal < NMAC.horizontal_m and vertical < NMAC.vertical_m
-        is_near = too_near or too_level or is_nmac
-        if is_near and self._in_flight(pair[0]) and self._in_flight(pair[1]):
+        reach_m = radius_m(first) + radius_m(second) + (NARROW_M if both_fly else 0.0)
+        between = gap(first, second, back_s) if horizontal <= reach_m else None
+        if both_fly:
             if too_level:
                 truth.least_horizontal_m = _lesser(truth.least_horizontal_m, horizontal)
             if too_near:
                 truth.least_vertical_m = _lesser(truth.least_vertical_m, vertical)
             if too_near and too_level and not (self._in_zone(first) and self._in_zone(second)):
                 self._record("loss_of_separation", now_ns, pair, horizontal, vertical)
-            if is_nmac:
+            is_narrow = between is not None and between.slant_m < NARROW_M
+            if is_narrow or (horizontal < NMAC.horizontal_m and vertical < NMAC.vertical_m):
                 self._record("nmac", now_ns, pair, horizontal, vertical)
-        if horizontal > radius_m(first) + radius_m(second):
-            return
-        between = gap(first, second, back_s)
-        if between.touches:
+        if between is not None and between.touches:
             self._record("collision", now_ns, pair, *between)
 
     def _in_zone(self, body: Mover) -> bool:

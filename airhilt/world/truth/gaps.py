@@ -9,8 +9,13 @@ import numpy as np
 
 from airhilt.geodesy.relative_motion import relative
 from airhilt.shapes.outline import Points, aircraft_outline, turned
+from airhilt.units import FOOT
 from airhilt.world.flight import AircraftType
 from airhilt.world.mover import Mover
+
+NARROW_M = 100.0 * FOOT
+"""Distance between two outlines, in m, below which only chance has avoided a collision: the FAA's
+degree of hazard "critical" of near midair collisions."""
 
 
 class Gap(NamedTuple):

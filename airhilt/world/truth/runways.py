@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -13,20 +13,18 @@ from airhilt.commands import CircuitLeg
 from airhilt.messages import Arrival, RunwayTruth
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.actors.actor import Actor
-from airhilt.world.truth.gaps import Gap, corners, gap, radius_m
+from airhilt.world.truth.gaps import NARROW_M, Gap, corners, gap, radius_m
 
 if TYPE_CHECKING:
     from airhilt.world.surface.layout import Layout
     from airhilt.world.surface.strips import RunwayStrip
 
-ROLLING = frozenset({"takeoff_roll", "rotate"})
-"""Phases of an aircraft that takes off."""
+ROLLING = frozenset({"takeoff_roll", "rotate", "rejected_takeoff", "rollout"})
+"""Phases of an aircraft that rolls along a runway, up to the screen height of a takeoff."""
 LANDING = frozenset({"glide", "flare"})
 """Phases of an aircraft that lands."""
-ROLLING_OUT = frozenset({"rollout"})
-"""Phases of an aircraft that has landed."""
-USING = ROLLING | LANDING | ROLLING_OUT | {"rejected_takeoff", "go_around", "climb_out"}
-"""Phases in which a user of the runway may still come near to an intruder."""
+MOVING_M_S = 1.0
+"""Least speed along a runway of an aircraft that uses it, in m/s."""
 ARRIVAL_WITHIN_S = 30.0
 """Time to the threshold in s below which an arrival uses the runway: the first stage of surface
 alerting in good visibility (EUROCONTROL-SPEC-171, A-SMGCS airport safety support)."""
@@ -34,6 +32,9 @@ LOW_M = 15.0
 """Height in m below which wildlife is in the way."""
 BEHIND_M = 30.0
 """Distance behind the user of a runway, in m, beyond which nothing is in its way."""
+AIRBORNE_AHEAD_M = 3_000.0 * FOOT
+"""Distance ahead, in m, from which an airborne aircraft in the same direction is not in the way:
+the least minimum of FAA Order JO 7110.65, 3-9-6 and 3-10-3, that of category I aircraft."""
 SHOWN_ARRIVALS_S = 120.0
 """Time to the threshold in s below which an arrival is published."""
 
@@ -42,14 +43,17 @@ IncursionCategory = Literal["A", "B", "C", "D", "accident"]
 significant potential for collision; C, ample time or distance; D, incorrect presence with no
 immediate consequence. The FAA counts a collision as an accident beside them."""
 
-NARROW_M = 100.0 * FOOT
-"""Closest distance between the outlines below which an incursion is of category A, in m.
-
-The definitions give no distances. ICAO's RISC calculator (Doc 9870, appendix H) too begins with the
-closest proximity. The value is this project's own."""
 SIGNIFICANT_M = 500.0 * FOOT
-"""Closest distance below which an incursion is of category B, in m: that of a near mid-air
-collision."""
+"""Closest distance between the outlines below which an incursion is of category B, in m; below
+`NARROW_M` it is of category A.
+
+The definitions give no distances; ICAO's RISC calculator (Doc 9870, appendix H) too begins with the
+closest proximity. Both limits are those of the FAA's degrees of hazard of near midair collisions:
+"potential" below 500 ft, as in AIM 7-7-3, and "critical" below 100 ft."""
+OVER_M = SIGNIFICANT_M + 25.0
+"""Height over a protected area, in m, up to which an aircraft is in the way or uses the runway. Who
+is higher passes `SIGNIFICANT_M` above whatever stands there: the highest tail, of an A380, is at
+24.1 m."""
 
 
 DOWNWIND_RAD = 135.0 * DEGREE
@@ -70,7 +74,7 @@ class Leg(NamedTuple):
 
 
 class User(NamedTuple):
-    """Aircraft that takes off from, or lands on, a runway now."""
+    """Aircraft that rolls along a runway or flies low along it, or comes to land on it."""
 
     callsign: str
     runway: str
@@ -175,14 +179,18 @@ class RunwayMonitor:
         }
         inside = self._inside(positions)
         users = {
-            name: list(self._users(strip, positions)) for name, strip in self._layout.strips.items()
+            name: list(self._users(strip, positions, inside[name]))
+            for name, strip in self._layout.strips.items()
         }
+        used = {user.callsign: user.runway for own in users.values() for user in own}
         for name, own in users.items():
-            occupants = inside[name]
+            occupants = tuple(filter(self._occupies, inside[name]))
             self._publish(now_ns, name, occupants, own)
             for user in own:
-                for intruder in occupants:
-                    if intruder != user.callsign and self._is_in_way(user, positions[intruder]):
+                for intruder in inside[name]:
+                    if intruder != user.callsign and self._is_in_way(
+                        user, intruder, positions[intruder], used.get(intruder)
+                    ):
                         self._incur(now_ns, name, user.callsign, intruder)
             if not own:
                 for intruder in filter(self._has_no_business, occupants):
@@ -191,7 +199,7 @@ class RunwayMonitor:
             for user in own:
                 if user.rolling and user.callsign in self._uncleared:
                     self._incur_uncleared(now_ns, name, user, users)
-        self._update_closest()
+        self._update_closest(used)
 
     def is_on(self, callsign: str, runway: str) -> bool:
         """Return whether an actor is in the protected area of this runway."""
@@ -251,13 +259,19 @@ class RunwayMonitor:
         place = state.latitude_rad, state.longitude_rad
         return _Position(actor, *self._layout.local_frame.to_local(place))
 
+    def _occupies(self, callsign: str) -> bool:
+        """Return whether an actor inside a protected area occupies it: in flight only birds do."""
+        actor = self._actors[callsign]
+        return actor.body.on_ground or actor.category == "wildlife"
+
     def _inside(self, positions: dict[str, _Position]) -> dict[str, tuple[str, ...]]:
-        """Return the callsigns in each protected area, by the name of the runway."""
+        """Return the callsigns in or low over each protected area, by the name of the runway."""
         low = {
             callsign: position
             for callsign, position in positions.items()
             if (body := position.actor.body).on_ground
-            or (position.actor.category == "wildlife" and body.state.height_agl_m < LOW_M)
+            or body.state.height_agl_m
+            < (LOW_M if position.actor.category == "wildlife" else OVER_M)
         }
         return {
             name: tuple(
@@ -292,30 +306,37 @@ class RunwayMonitor:
 
     # --- users and intruders ----------------------------------------------------------------
 
-    def _users(self, strip: RunwayStrip, positions: dict[str, _Position]) -> Iterator[User]:
-        idents = {end.ident for end in strip.ends}
+    def _users(
+        self, strip: RunwayStrip, positions: dict[str, _Position], inside: Collection[str]
+    ) -> Iterator[User]:
         for callsign, position in positions.items():
-            actor = position.actor
-            runway, phase = actor.bound_runway, actor.body.phase
-            if runway not in idents:
-                continue
-            along, speed = self._along(position, runway)
-            if phase in ROLLING or (phase in ROLLING_OUT and speed > 1.0):
-                yield User(callsign, runway, along, 0.0, rolling=True)
-            elif phase in LANDING and speed > 1.0:
-                to_go_s = max(-along, 0.0) / speed
-                yield User(callsign, runway, along, to_go_s, actor.body.on_ground)
+            actor, body = position.actor, position.actor.body
+            flies = actor.category == "aircraft" and not body.on_ground
+            rolling = body.phase in ROLLING
+            for end in strip.ends:
+                turned = math.remainder(body.state.heading_rad - end.course_rad, math.tau)
+                is_along = callsign in inside and abs(turned) < ALIGNED_RAD
+                lands = body.phase in LANDING and actor.bound_runway == end.ident
+                along, speed = self._along(position, end.ident)
+                if speed > MOVING_M_S and (lands or (is_along and (flies or rolling))):
+                    rolling = rolling or body.on_ground
+                    to_go_s = 0.0 if rolling else max(-along, 0.0) / speed
+                    yield User(callsign, end.ident, along, to_go_s, rolling)
 
-    def _is_in_way(self, user: User, other: _Position) -> bool:
-        if user.time_to_threshold_s > ARRIVAL_WITHIN_S:
+    def _is_in_way(self, user: User, callsign: str, other: _Position, used: str | None) -> bool:
+        """Return whether an actor, which may itself use a runway, is in the way of a user."""
+        ahead_m = self._along(other, user.runway)[0] - user.along_m
+        if user.time_to_threshold_s > ARRIVAL_WITHIN_S or ahead_m < -BEHIND_M:
             return False
-        if self._along(other, user.runway)[0] < user.along_m - BEHIND_M:
-            return False
-        actor = other.actor
-        follows = actor.bound_runway == user.runway and actor.body.phase in (ROLLING | ROLLING_OUT)
-        # An aircraft that rolls ahead in the same direction leaves in time, as a rule: the next may
-        # not cross the threshold before (FAA Order JO 7110.65, 3-9-6 and 3-10-3).
-        return not follows or user.rolling or user.time_to_threshold_s <= 0.0
+        ends = {end.ident for end in self._layout.strip_of(user.runway).ends}
+        is_head_on = used != user.runway and used in ends
+        if is_head_on or (used is None and self._occupies(callsign)):
+            return True
+        # What rolls or flies in the same direction or across leaves in time, as a rule: an arrival
+        # may not cross the threshold before, unless the other is airborne far enough ahead (FAA
+        # Order JO 7110.65, 3-9-6, 3-10-3, and 3-10-4).
+        is_away = not other.actor.body.on_ground and ahead_m > AIRBORNE_AHEAD_M
+        return user.time_to_threshold_s <= 0.0 and not (used == user.runway and is_away)
 
     def _has_no_business(self, callsign: str) -> bool:
         """Return whether an actor is there by mistake, and not bound for a runway."""
@@ -356,15 +377,14 @@ class RunwayMonitor:
             incursion.closest = gap(self._actors[user].body, self._actors[intruder].body)
         self._incurred(incursion)
 
-    def _update_closest(self) -> None:
-        """Update the closest distance of each incursion while one of both uses the runway."""
+    def _update_closest(self, used: Mapping[str, str]) -> None:
+        """Update the closest distance of each incursion while one of both uses a runway."""
         for incursion in self.incursions.values():
             if incursion.user is None or incursion.closest is None or incursion.over:
                 continue
-            user, intruder = (
-                self._actors[name].body for name in (incursion.user, incursion.intruder)
-            )
-            if user.ended or intruder.ended or {user.phase, intruder.phase}.isdisjoint(USING):
+            pair = (incursion.user, incursion.intruder)
+            user, intruder = (self._actors[name].body for name in pair)
+            if user.ended or intruder.ended or used.keys().isdisjoint(pair):
                 incursion.over = True
                 continue
             now = gap(user, intruder)
@@ -381,7 +401,9 @@ class RunwayMonitor:
                 time_to_threshold_s=round(user.time_to_threshold_s, 1),
             )
             for user in users
-            if not user.rolling and user.time_to_threshold_s < SHOWN_ARRIVALS_S
+            if not user.rolling
+            and self.is_bound_for(user.callsign, user.runway)
+            and user.time_to_threshold_s < SHOWN_ARRIVALS_S
         )
         known = {(arrival.actor, arrival.runway) for arrival in self._arrivals[name]}
         if occupants == self._occupants[name] and known == {(a.actor, a.runway) for a in arrivals}:

@@ -219,6 +219,93 @@ def test_on_a_crossing_runway_who_rolls_through_the_intersection_is_in_the_way()
     assert ("D", "A") in Watch({"A": crossing, "D": leaving}).look().incurred
 
 
+def climbing(along_m: float, height_m: float, phase: str = "climb_out", **kw: Any) -> Performing:
+    """An airliner in flight along a runway that its crew is bound for no more."""
+    plane = airliner(along_m, phase, speed_kt=150.0, height_m=height_m, on_ground=False, **kw)
+    plane.bound_runway = None
+    return plane
+
+
+CROSSING_M = {"01": 1_504.0, "33": 783.0}
+"""Distance past the threshold at which runways 01 and 33 cross."""
+
+
+@pytest.mark.parametrize("phase", ["climb_out", "go_around", "en_route"])
+def test_who_flies_low_over_a_crossing_runway_is_in_the_way_of_who_rolls_there(phase: str) -> None:
+    landed = airliner(1_400.0, "rollout", speed_kt=90.0)
+    over = climbing(CROSSING_M["33"], 36.0, phase, runway="33")
+    watch = Watch({"A": landed, "D": over}).look()
+    assert ("A", "D") in watch.incurred
+    landed.body.along_m = CROSSING_M["01"]
+    assert set(watch.look().categories) == {"A"}
+
+
+@pytest.mark.parametrize(
+    ("landed_m", "departed_m", "height_m"), [(1_600.0, 780.0, 36.0), (1_400.0, 1_000.0, 36.0),
+                                             (1_400.0, 780.0, 180.0)],
+    ids=["the landing is past", "the departure is past", "high above"],
+)  # fmt: skip
+def test_who_has_passed_the_crossing_or_is_high_above_is_not_in_the_way(
+    landed_m: float, departed_m: float, height_m: float
+) -> None:
+    """FAA Order JO 7110.65, 3-10-4, and 500 ft above what stands on the runway."""
+    landed = airliner(landed_m, "rollout", speed_kt=60.0)
+    departed = climbing(departed_m, height_m, runway="33")
+    assert ("A", "D") not in Watch({"A": landed, "D": departed}).look().incurred
+
+
+@pytest.mark.parametrize("phase", ["takeoff_roll", "climb_out"])
+def test_an_arrival_may_be_short_of_its_threshold_while_another_crosses(phase: str) -> None:
+    crosses = airliner(CROSSING_M["33"], phase, runway="33", speed_kt=130.0)
+    crosses.body.on_ground = phase != "climb_out"
+    crosses.body.height_m = 0.0 if crosses.body.on_ground else 20.0
+    assert Watch({"A": arrival(5.0), "D": crosses}).look().incurred == []
+
+
+@pytest.mark.parametrize(("ahead_m", "incurred"), [(900.0, [("A", "D")]), (930.0, [])])
+def test_behind_who_is_airborne_3000_ft_ahead_the_next_may_land_or_take_off(
+    ahead_m: float, incurred: list[tuple[str, str]]
+) -> None:
+    """The least minimum of FAA Order JO 7110.65, 3-9-6 and 3-10-3."""
+    leaving = climbing(100.0 + ahead_m, 60.0)
+    for phase in ("takeoff_roll", "rollout"):
+        rolling = airliner(100.0, phase, speed_kt=60.0)
+        assert Watch({"A": rolling, "D": leaving}).look().incurred == incurred
+
+
+@pytest.mark.parametrize(
+    ("phase", "height_m", "category"),
+    [("climb_out", 40.0, "B"), ("go_around", 20.0, "A"), ("rejected_takeoff", 0.0, "A")],
+)
+def test_what_enters_ahead_of_who_takes_off_or_goes_around_is_in_the_way(
+    phase: str, height_m: float, category: str
+) -> None:
+    plane = climbing(900.0, height_m, phase)
+    plane.body.on_ground = height_m == 0.0
+    watch = Watch({"A": plane, "OPS": vehicle(1_300.0)}).look()
+    assert watch.incurred == [("A", "OPS")]
+    plane.body.along_m = 1_300.0
+    assert watch.look().categories == [category]
+
+
+def test_who_goes_around_is_no_arrival() -> None:
+    arrivals: list[Any] = []
+    plane = arrival(60.0)
+    monitor = RunwayMonitor(
+        kdca(),
+        {"A": cast(Any, plane)},
+        set(),
+        set(),
+        lambda _, truth: arrivals.append([one.actor for one in truth.arrivals]),
+        lambda _: None,
+    )
+    monitor.tick(SECOND_NS)
+    plane.body.phase, plane.bound_runway = "go_around", None
+    plane.body.along_m, plane.body.height_m = 300.0, 60.0
+    monitor.tick(2 * SECOND_NS)
+    assert arrivals == [["A"], []]
+
+
 def test_an_incursion_is_over_once_neither_uses_the_runway_whatever_they_do_later() -> None:
     rolling, car = airliner(1_200.0, "rollout", speed_kt=60.0), vehicle(1_700.0)
     watch = Watch({"A": rolling, "OPS": car}).look()
