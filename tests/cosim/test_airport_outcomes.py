@@ -12,7 +12,7 @@ from airhilt.host import library
 from airhilt.messages import SpokenTruth
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
-from airhilt.scenario.models import LineBegun
+from airhilt.scenario.models import LineBegun, Scenario
 from airhilt.units import SECOND_NS
 from breadth import mostly_slow
 
@@ -143,6 +143,54 @@ def test_a_nominal_twin_ends_without_incident_and_the_assistant_keeps_quiet(
     assert not summary.loss_of_separation
     assert summary.runway_incursions == []
     assert summary.ended_actors == {}
+
+
+def deaf_crews() -> Scenario:
+    """A departure climbs out closely over a landing on a crossing runway, whatever is advised."""
+    tower, frequency_khz = "San Francisco Tower", 120_500
+
+    def airliner(callsign: str, icao24: str, **initial: Any) -> dict[str, Any]:
+        return {
+            "type": "aircraft", "callsign": callsign, "icao24": icao24, "aircraft": "737",
+            "initial": initial, "pilot": {"compliance": 0.0},
+        }  # fmt: skip
+
+    def clearance(name: str, at_s: float, to: str, text: str, **command: Any) -> dict[str, Any]:
+        return {
+            "id": name, "at_s": at_s, "speaker": tower, "to": to, "frequency_khz": frequency_khz,
+            "text": text, "commands": [{"actor": to, "command": command}],
+        }  # fmt: skip
+
+    pair = ("JBU7", "NKS5")
+    return Scenario.model_validate({
+        "name": "deaf_crews", "title": "Two on crossing runways", "family": "S01A",
+        "scene": {"type": "airport", "airport": "KSFO"}, "duration_s": 120,
+        "actors": [
+            airliner("JBU7", "b00001", type="final", runway="28R", distance_nm=2),
+            airliner("NKS5", "b00002", type="lined_up", runway="01R"),
+        ],
+        "radio": {"controller": tower, "lines": [
+            clearance("land", 1, "JBU7", "JetBlue seven, runway two eight right, cleared to land.",
+                      action="land", runway="28R"),
+            clearance("go", 29, "NKS5",
+                      "Spirit wings five, runway zero one right, cleared for takeoff.",
+                      action="take_off", runway="01R"),
+        ]},
+        "conflict": {
+            "actors": pair, "opens_when": {"type": "line_ended", "line": "go"},
+            "unassisted": "runway_incursion",
+        },
+        "end_when": [{"type": "closest_approach_passed", "actors": pair, "for_s": 10}],
+    })  # fmt: skip
+
+
+def test_who_climbs_out_closely_over_a_landing_has_not_avoided_it(tmp_path: Path) -> None:
+    options: dict[str, Any] = {"latency": "fixed", "cameras": False, "speech": False}
+    summary = run(deaf_crews(), out=tmp_path / "run", report=False, **options).summary
+    assert summary.t_first_warning_s is not None
+    assert not summary.nmac
+    assert summary.runway_incursion_category == "A"
+    assert summary.avoided is False
 
 
 def test_every_family_has_its_variants_and_a_nominal_twin() -> None:

@@ -60,7 +60,6 @@ class Passing:
     aside_m: float = 0.0
     kind: AircraftType | None = B737
     ended: str | None = None
-    t_s: float = 0.0
 
     @property
     def on_ground(self) -> bool:
@@ -74,16 +73,15 @@ class Passing:
             else self.kind.dimensions
         )
 
-    @property
-    def state(self) -> SurfaceState:
-        course, past_s = math.radians(self.course_deg), self.t_s - self.at_s
-        sin, cos, rate = math.sin(course), math.cos(course), 0.0
-        if not self.on_ground:
-            rate = self.rate_m_s
+    def move_to(self, t_s: float) -> None:
+        """Be where it is at a time, in s."""
+        course, past_s = math.radians(self.course_deg), t_s - self.at_s
+        sin, cos = math.sin(course), math.cos(course)
+        rate = 0.0 if self.on_ground else self.rate_m_s
         height = max(self.height_m + rate * past_s, 0.0)
         east, north = crossing()
         along = self.speed_m_s * past_s
-        return SurfaceState(
+        self.state = SurfaceState(
             *kdca().local_frame.to_place(
                 east + along * sin + self.aside_m * cos, north + along * cos - self.aside_m * sin
             ),
@@ -136,13 +134,15 @@ class Pass:
         self.nearest_m, self.touches = math.inf, False
         for tick in range(LASTS_S * TICKS_PER_S):
             now_ns = tick * SECOND_NS // TICKS_PER_S
-            first.t_s = second.t_s = tick / TICKS_PER_S
+            for body in (first, second):
+                body.move_to(tick / TICKS_PER_S)
             monitor.tick(now_ns)
             if tick % 4 == 0:
                 runways.tick(now_ns)
-            between = gap(cast(Any, first), cast(Any, second))
-            self.touches |= between.touches
-            self.nearest_m = min(self.nearest_m, between.slant_m)
+            if monitor.motion(("A", "B")).distance_m < 300.0:
+                between = gap(cast(Any, first), cast(Any, second))
+                self.touches |= between.touches
+                self.nearest_m = min(self.nearest_m, between.slant_m)
 
     def must_be_seen_if_near(self) -> None:
         assert self.outcome.happened("collision") == self.touches
