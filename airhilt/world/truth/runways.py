@@ -378,17 +378,22 @@ class RunwayMonitor:
         self._incurred(incursion)
 
     def _update_closest(self, used: Mapping[str, str]) -> None:
-        """Update the closest distance of each incursion while one of both uses a runway."""
+        """Update the closest distance of each incursion while one of both uses a runway.
+
+        A pass in flight is followed to its end.
+        """
         for incursion in self.incursions.values():
             if incursion.user is None or incursion.closest is None or incursion.over:
                 continue
             pair = (incursion.user, incursion.intruder)
             user, intruder = (self._actors[name].body for name in pair)
-            if user.ended or intruder.ended or used.keys().isdisjoint(pair):
-                incursion.over = True
-                continue
             now = gap(user, intruder)
-            if now.slant_m < incursion.closest.slant_m:
+            is_nearer = now.slant_m < incursion.closest.slant_m
+            passes = is_nearer and not (user.on_ground and intruder.on_ground)
+            is_over = used.keys().isdisjoint(pair) and not passes
+            if user.ended or intruder.ended or is_over:
+                incursion.over = True
+            elif is_nearer:
                 incursion.closest = now
 
     def _publish(

@@ -288,6 +288,16 @@ def test_what_enters_ahead_of_who_takes_off_or_goes_around_is_in_the_way(
     assert watch.look().categories == [category]
 
 
+def test_a_pass_of_two_that_have_climbed_away_is_followed_to_its_end() -> None:
+    leaving, behind = climbing(900.0, 170.0), arrival(0.1)
+    watch = Watch({"A": behind, "D": leaving}).look()
+    behind.body.along_m, behind.body.height_m, behind.body.phase = 300.0, 60.0, "go_around"
+    assert watch.look().incurred == [("A", "D")]
+    leaving.body.along_m, leaving.body.height_m = 1_000.0, 190.0
+    behind.body.along_m, behind.body.height_m = 900.0, 240.0
+    assert watch.look().categories == ["B"]
+
+
 def test_who_goes_around_is_no_arrival() -> None:
     arrivals: list[Any] = []
     plane = arrival(60.0)
