@@ -31,9 +31,11 @@ class AdsbReport(Message):
     emitter_category: EmitterCategory | None = Field(
         default=None, description="null until an identification squitter came through"
     )
-    ground_speed_kt: float = Field(ge=0.0)
-    track_deg: float = Field(ge=0.0, lt=360.0)
-    vertical_rate_fpm: float = Field(description="in steps of 64 ft/min")
+    ground_speed_kt: float = Field(
+        default=0.0, ge=0.0, description="0 too where a feed gives none: the places tell then"
+    )
+    track_deg: float = Field(default=0.0, ge=0.0, lt=360.0)
+    vertical_rate_fpm: float = Field(default=0.0, description="in steps of 64 ft/min")
     nacp: int = Field(ge=0, le=11, description="navigation accuracy category for position")
     nacv: int = Field(ge=0, le=4, description="navigation accuracy category for velocity")
     receiver: str
@@ -110,7 +112,9 @@ class SurfaceTrack(Message):
         "transponder",
     )
     on_ground: bool | None = Field(default=None, description="null without a transponder")
-    ground_speed_kt: float = Field(ge=0.0, description="0 at a standstill")
+    ground_speed_kt: float = Field(
+        default=0.0, ge=0.0, description="0 at a standstill, or where a feed gives none"
+    )
     track_deg: float | None = Field(
         default=None, ge=0.0, lt=360.0, description="over the ground; null at a standstill"
     )

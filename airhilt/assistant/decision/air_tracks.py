@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from airhilt.assistant.decision.tracks import Track
+from airhilt.assistant.decision.velocity_checks import VelocityChecks
 from airhilt.geodesy.wgs84 import LEAST_CURVATURE_RADIUS_M
 from airhilt.messages import AdsbReport
 from airhilt.units import SECOND_NS
@@ -29,6 +30,7 @@ class AirTracks:
 
     def __init__(self) -> None:
         self._tracks: dict[str, Track] = {}
+        self._velocities = VelocityChecks()
         self._heard_ns: dict[str, int] = {}
         """Time at which the last report of each in flight arrived, however old it was."""
         self._grounded: set[str] = set()
@@ -40,7 +42,8 @@ class AirTracks:
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the track of an aircraft at a time, or note that it is on the ground."""
-        if report.altitude_ft is None:
+        report = self._velocities.checked(report)
+        if (altitude_ft := report.altitude_ft) is None:
             self._grounded.add(report.icao24)
             return
         self._grounded.discard(report.icao24)
@@ -48,9 +51,9 @@ class AirTracks:
         self._updated[report.icao24] = None
         track = self._tracks.get(report.icao24)
         if track is None:
-            self._tracks[report.icao24] = Track.of(report, report.altitude_ft, report.t_adsb_in_ns)
+            self._tracks[report.icao24] = Track.of(report, altitude_ft, report.t_adsb_in_ns)
         else:
-            track.update(report, report.altitude_ft)
+            track.update(report, altitude_ft)
 
     def addresses(self, *callsigns: str) -> tuple[str, ...]:
         """Return the addresses of the aircraft that have some callsigns."""

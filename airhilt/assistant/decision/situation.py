@@ -25,6 +25,7 @@ from airhilt.assistant.decision.occupancy import (
     velocity_of,
 )
 from airhilt.assistant.decision.partial_calls import PartialCalls
+from airhilt.assistant.decision.velocity_checks import VelocityChecks
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
     AdsbReport,
@@ -118,6 +119,7 @@ class RunwaySituation:
         """Mark of each callsign that is a vehicle."""
         self._animals = frozenset(briefing.animals)
         self._mobiles: dict[str, Mobile] = {}
+        self._velocities = VelocityChecks()
         self._heard_ns: dict[str, int] = {}
         """Time at which the last report of each arrived, however old it was."""
         self._obstacles: dict[str, dict[str, Obstacle]] = {
@@ -196,6 +198,7 @@ class RunwaySituation:
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the position of an aircraft or a vehicle at a time."""
         self._heard_ns[report.icao24] = t_ns
+        report = self._velocities.checked(report)
         point = self.aerodrome.locate(report.latitude_deg, report.longitude_deg)
         mobile = self._mobiles.get(report.icao24)
         if mobile is None:

@@ -16,6 +16,7 @@ from airhilt.assistant.decision.service_messages import (
     RadioTurn,
     TrackSlice,
 )
+from airhilt.assistant.decision.velocity_checks import VelocityChecks
 from airhilt.messages import AdsbReport, Briefing, CameraInfo, Detections, Message, Part, Transcript
 from airhilt.phraseology import parse_call
 from airhilt.units import SECOND_NS
@@ -45,6 +46,7 @@ class Slices:
         self._radio: dict[str, Transcript] = {}
         self._cameras: deque[Detections] = deque()
         self._tracks: dict[str, AdsbReport] = {}
+        self._velocities = VelocityChecks()
 
     def receive(self, received: ReceivedMessage) -> None:
         """Take in one message if it is believed; of two about one call, the first holds."""
@@ -57,7 +59,7 @@ class Slices:
             case AdsbReport() as report if self.checks.believes_report(report, t_ns):
                 last = self._tracks.get(report.icao24)
                 if last is None or report.t_adsb_in_ns >= last.t_adsb_in_ns:
-                    self._tracks[report.icao24] = report
+                    self._tracks[report.icao24] = self._velocities.checked(report)
             case Transcript() as transcript:
                 for each in self.checks.in_order(transcript, t_ns):
                     self._radio[each.id] = each

@@ -31,7 +31,8 @@ from airhilt.assistant.decision.mobiles import (
     OVERRUN_M,
     STEEPEST,
 )
-from airhilt.assistant.decision.surface_traffic import MOVING_M_S, SurfaceTraffic, Target
+from airhilt.assistant.decision.surface_traffic import SurfaceTraffic, Target
+from airhilt.assistant.decision.velocity_checks import MOVING_M_S
 from airhilt.configuration import Configuration, Seconds
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 

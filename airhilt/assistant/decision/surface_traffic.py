@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector
 from airhilt.assistant.decision.mobiles import ACCELERATING_FROM_M_S, GAIN_M_S, ROLLING_M_S
+from airhilt.assistant.decision.velocity_checks import MOVING_M_S, VelocityChecks
 from airhilt.messages import SurfaceTrack
 from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
 
@@ -16,8 +17,6 @@ FORGOTTEN_NS = 5 * SECOND_NS
 """Time after which a track that is not renewed is forgotten, in ns."""
 GAIN_NS = 4 * SECOND_NS
 """Time over which a gain of speed is looked at, in ns."""
-MOVING_M_S = 2.0
-"""Speed below which a target's direction is mostly error, and nobody moves on, in m/s."""
 CLIMBED_M = 100.0 * FOOT
 """Height above its lowest point, in m, from which an aircraft in the air climbs away."""
 
@@ -95,6 +94,7 @@ class SurfaceTraffic:
     def __init__(self, aerodrome: Aerodrome) -> None:
         self._aerodrome = aerodrome
         self._targets: dict[int, Target] = {}
+        self._velocities = VelocityChecks()
 
     def __iter__(self) -> Iterator[Target]:
         return iter(self._targets.values())
@@ -104,7 +104,7 @@ class SurfaceTraffic:
         point = self._aerodrome.locate(track.latitude_deg, track.longitude_deg)
         target = self._targets.setdefault(track.track, Target(track.track, point))
         if track.t_track_ns >= target.t_ns:
-            target.update(track, point)
+            target.update(self._velocities.checked(track), point)
 
     def forget(self, t_ns: int) -> None:
         """Forget the targets that have not been renewed for a while."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from airhilt.assistant.decision.line_of_sight import BOX_ERROR_PX, PictureGeometry, Ray
+from airhilt.assistant.decision.velocity_checks import VelocityChecks
 from airhilt.geodesy.wgs84 import offset_m
 from airhilt.messages import AdsbReport, Box, CameraView, EmitterCategory
 from airhilt.surveillance.squitters import NACP_95_PERCENT_M
@@ -39,11 +40,12 @@ class Traffic:
         """Pressure altitude of the ground, in m; None while it is not known."""
         self._reports: dict[str, AdsbReport] = {}
         self._heard_ns: dict[str, int] = {}
+        self._velocities = VelocityChecks()
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Keep the last report of an aircraft or a vehicle, which arrived at a time."""
         self._heard_ns[report.icao24] = t_ns
-        self._reports[report.icao24] = report
+        self._reports[report.icao24] = self._velocities.checked(report)
 
     def forget(self, t_ns: int) -> None:
         """Forget those of whom nothing arrived for a while."""

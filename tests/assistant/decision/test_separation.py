@@ -9,6 +9,7 @@ import pytest
 
 from airhilt.assistant.decision.air_tracks import AirTracks, Reach
 from airhilt.engine_families import ASSISTANTS
+from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import AdsbReport, Advisory, Severity
 from airhilt.units import KNOT, SECOND_NS
 from breadth import mostly_slow
@@ -74,9 +75,15 @@ class Turning(Flight):
 
     def state(self, time_s: float) -> State:
         state = super().state(time_s)
-        if not self.away_s[0] <= time_s < self.away_s[1]:
+        begin_s, end_s = self.away_s
+        if not begin_s <= time_s < end_s:
             return state
-        return replace(state, velocity_north_m_s=-0.7 * self.speed_kt * KNOT)
+        aside_s = min(time_s - begin_s, end_s - time_s)
+        south_m_s = 0.7 * self.speed_kt * KNOT
+        place = (state.latitude_rad, state.longitude_rad)
+        latitude_rad, _ = displaced(place, -south_m_s * aside_s, 0.0, state.altitude_m)
+        north_m_s = -south_m_s if time_s < (begin_s + end_s) / 2.0 else south_m_s
+        return replace(state, latitude_rad=latitude_rad, velocity_north_m_s=north_m_s)
 
 
 def test_a_conflict_is_not_over_because_a_turn_opens_the_miss_distance_for_a_while() -> None:
