@@ -3,7 +3,7 @@
     airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach simple
     python examples/sdk_worker.py tcp/127.0.0.1:7447
 
-Two aircraft at the same level within 0.45 degrees (about 40 km) of each other are a conflict. The
+Two aircraft at the same level within 40 km of each other are a conflict. The
 worker tells one crew to climb and the other to descend, and tells the controller of both. When the
 two are further apart again, the conflict is over, and the crews return to their levels.
 """
@@ -12,6 +12,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.messages import (
     AdsbReport,
     Advisory,
@@ -22,6 +23,7 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.sim import Input, Output
+from airhilt.units import DEGREE
 from airhilt.workers import Step, serve
 
 
@@ -42,11 +44,11 @@ class SimpleWorker:
         outputs: list[Output] = []
         for (a, a_ft), (b, b_ft) in combinations(self.reports.values(), 2):
             pair = "-".join(sorted((a.icao24, b.icao24)))
-            near = abs(a.latitude_deg - b.latitude_deg) + abs(a.longitude_deg - b.longitude_deg)
-            if near < 0.45 and abs(a_ft - b_ft) < 1000 and pair not in self.open:
+            near = distance_m(place(a), place(b)) < 40_000.0
+            if near and abs(a_ft - b_ft) < 1000 and pair not in self.open:
                 self.open[pair] = [*advisories(pair, (a, a_ft), (b, b_ft), t_ns)]
                 outputs += [output(advisory) for advisory in self.open[pair]]
-            elif near >= 0.45 and pair in self.open:
+            elif not near and pair in self.open:
                 over = {"active": False, "revision": 1, "t_ready_ns": t_ns}
                 outputs += [output(each.model_copy(update=over)) for each in self.open.pop(pair)]
         return Step(tuple(outputs))
@@ -68,6 +70,10 @@ def advisories(
             message=f"traffic at the same level, {climbs} climb, {descends} descend",
             evidence=Evidence(sources=("adsb",)), t_ready_ns=t_ns,
         )  # fmt: skip
+
+
+def place(report: AdsbReport) -> Place:
+    return report.latitude_deg * DEGREE, report.longitude_deg * DEGREE
 
 
 def output(advisory: Advisory) -> Output:
