@@ -14,22 +14,21 @@
 
 Paths are straight over the ground, and levels waver by 15 ft as in light turbulence. Nobody reacts.
 The closest approach is the horizontal one; levels are shifted so that its vertical distance holds.
-An encounter that begins within 8 NM and 1,500 ft is drawn anew.
+An encounter that begins within 8 NM and 1,500 ft is drawn anew. Close ones are not, and have 20 to
+180 s, 0 to 0.2 NM and 0 to 600 ft in place of the bounds in the table.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
 
 SPEED_KT = (120.0, 480.0)
-APPROACH_S = (150.0, 300.0)
-MISS_NM = (0.0, 12.0)
-VERTICAL_FT = (0.0, 4000.0)
 RATE_FPM = (300.0, 2500.0)
 BEGINS_S = (-120.0, 20.0)
 """Begin of a manoeuvre, counted from the closest approach."""
@@ -42,6 +41,18 @@ LEVELS_APART_M = 1500.0 * FOOT
 """Distances of which one is exceeded when an encounter begins."""
 WAVER_FT = 15.0
 WAVER_S = 60.0
+
+
+class Passing(NamedTuple):
+    """Bounds of the time to the closest approach, and of the distances there."""
+
+    approach_s: tuple[float, float]
+    miss_nm: tuple[float, float]
+    vertical_ft: tuple[float, float]
+
+
+USUAL = Passing((150.0, 300.0), (0.0, 12.0), (0.0, 4000.0))
+CLOSE = Passing((20.0, 180.0), (0.0, 0.2), (0.0, 600.0))
 
 
 @dataclass(frozen=True)
@@ -117,18 +128,23 @@ class Encounter:
 def draw(draws: np.random.Generator) -> Encounter:
     """Return a random encounter."""
     while True:
-        encounter = _drawn(draws)
+        encounter = _drawn(draws, USUAL)
         horizontal_m, vertical_m = encounter.distances_m(0.0)
         if horizontal_m > APART_M or vertical_m > LEVELS_APART_M:
             return encounter
 
 
-def _drawn(draws: np.random.Generator) -> Encounter:
+def draw_close(draws: np.random.Generator) -> Encounter:
+    """Return a random encounter of two that pass close, and may be seen late."""
+    return _drawn(draws, CLOSE)
+
+
+def _drawn(draws: np.random.Generator, passing: Passing) -> Encounter:
     courses = draws.uniform(0.0, math.tau, size=2)
     speeds = draws.uniform(*SPEED_KT, size=2) * KNOT
-    approach_s = float(draws.uniform(*APPROACH_S))
-    miss = float(draws.uniform(*MISS_NM)) * NAUTICAL_MILE * float(draws.choice((-1.0, 1.0)))
-    vertical = float(draws.uniform(*VERTICAL_FT)) * FOOT * float(draws.choice((-1.0, 1.0)))
+    approach_s = float(draws.uniform(*passing.approach_s))
+    miss = float(draws.uniform(*passing.miss_nm)) * NAUTICAL_MILE * float(draws.choice((-1.0, 1.0)))
+    vertical = float(draws.uniform(*passing.vertical_ft)) * FOOT * float(draws.choice((-1.0, 1.0)))
     motions = [_motion(draws, approach_s) for _ in range(2)]
     east = speeds * np.sin(courses)
     north = speeds * np.cos(courses)

@@ -7,8 +7,13 @@ from dataclasses import dataclass, field
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.findings import Finding
+from airhilt.assistant.decision.manoeuvres import RESPONSE_S
 from airhilt.messages import AdvisoryKind, Evidence, Recommendation, Severity
 from airhilt.units import SECOND_NS
+
+AGAIN_S = RESPONSE_S + 7.0
+"""Time after which who does not do as told is told again, in s: that of a response, and the period
+of a terrain caution (EASA, AMC1 ACNS.E.TAWS.075, table 2)."""
 
 
 @dataclass(slots=True)
@@ -22,6 +27,7 @@ class Escalation:
     _revision: int = 0
     _since_ns: dict[Severity, int] = field(default_factory=dict)
     """Time since which the level has been that or higher, by severity."""
+    _told_ns: int | None = None
     _quiet_since_ns: int | None = None
     _tells_again: bool = False
 
@@ -55,6 +61,26 @@ class Escalation:
             return False
         self.severity = max(held, key=lambda severity: severity.rank)
         self._tells_again = False
+        self._told_ns = t_ns
+        return True
+
+    def changes(self, t_ns: int, *, is_other: bool, is_ignored: bool) -> bool:
+        """Return whether advice is to be told though the severity has not risen.
+
+        Parameters
+        ----------
+        is_other
+            True if it is other advice than was told last.
+        is_ignored
+            True if somebody does not do what was told last: a WARNING is told again then.
+        """
+        if not self.is_for_crews or self._told_ns is None:
+            return False
+        is_warning = self.severity is Severity.WARNING
+        is_due = is_warning and t_ns - self._told_ns >= AGAIN_S * SECOND_NS
+        if not is_other and not (is_ignored and is_due):
+            return False
+        self._told_ns = t_ns
         return True
 
     def observe(self, level: Severity | None, t_ns: int) -> None:

@@ -198,7 +198,14 @@ class IntruderWatch:
                 continue
             threatened.append(ongoing)
             ongoing.encounter = encounter
-            if ongoing.escalation.rises(encounter.severity, t_ns, self.config.persistence_s):
+            has_risen = ongoing.escalation.rises(
+                encounter.severity, t_ns, self.config.persistence_s
+            )
+            # What is seen to come on as before was not avoided.
+            changes = ongoing.escalation.changes(
+                t_ns, is_other=False, is_ignored=encounter.severity is Severity.WARNING
+            )
+            if has_risen or changes:
                 if ongoing.escalation.severity is Severity.WARNING:
                     ongoing.recommendation = self._recommended(encounter)
                 told.append(self._alert(t_ns, ongoing))

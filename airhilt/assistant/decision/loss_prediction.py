@@ -120,6 +120,13 @@ class Prediction(NamedTuple):
         """Callsigns of the two."""
         return self.first.callsign, self.second.callsign
 
+    @property
+    def draws_apart(self) -> bool:
+        """True if neither distance becomes less."""
+        gap_m = self.first.altitude_m - self.second.altitude_m
+        opening_m_s = self.first.profile().rate_m_s - self.second.profile().rate_m_s
+        return self.time_to_closest_approach_s == 0.0 and gap_m * opening_m_s >= 0.0
+
     def evidence(self) -> Evidence:
         """Return the prediction as an advisory gives it."""
         heard = [track.radio_id for track in (self.first, self.second) if track.radio_id]

@@ -15,6 +15,8 @@ RESPONSE_S = 10.0
 """Time allowed for speech and for the reactions of crew and aircraft, in s; until then all fly on.
 
 The standard pilot of TCAS II takes 5 s (ICAO Annex 10, volume IV); the voice takes the rest."""
+CHANGED_RESPONSE_S = 7.5
+"""The same for what changes an earlier advisory: the standard pilot takes 2.5 s then (the same)."""
 BANK_RAD = 25.0 * DEGREE
 """Bank of a turn, in rad (ICAO Doc 8168, volume II, on the parameters of turns)."""
 RATE_ONE_RAD_S = 3.0 * DEGREE
@@ -45,6 +47,15 @@ class Manoeuvre(NamedTuple):
 
 
 NONE = Manoeuvre()
+
+
+def mirrored(manoeuvre: Manoeuvre, altitude_m: float) -> Manoeuvre:
+    """Return the opposite of a manoeuvre that begins at an altitude."""
+    target_m = manoeuvre.target_m
+    return manoeuvre._replace(
+        target_m=None if target_m is None else 2.0 * altitude_m - target_m,
+        turn_rad=-manoeuvre.turn_rad,
+    )
 
 
 class Paths(NamedTuple):

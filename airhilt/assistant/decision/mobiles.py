@@ -93,12 +93,17 @@ class Mobile:
         gathers = self.speed_m_s >= ACCELERATING_FROM_M_S and gain_m_s >= GAIN_M_S
         return self.speed_m_s >= ROLLING_M_S or (gathers and not self.landed)
 
+    @property
+    def is_slowing(self) -> bool:
+        """True if it brakes."""
+        return self.slow_speed_m_s - self.speed_m_s >= SLOWING_M_S
+
     def travelled_m(self, t_ns: int) -> float:
         """Return how far it has come since its last report, in m; 0 for one that slows down.
 
         One that slows down may be about to stop.
         """
-        if self.slow_speed_m_s - self.speed_m_s >= SLOWING_M_S:
+        if self.is_slowing:
             return 0.0
         return self.speed_m_s * max(t_ns - self.t_ns, 0) / SECOND_NS
 

@@ -10,10 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from airhilt.assistant.decision.manoeuvres import (
+    CHANGED_RESPONSE_S,
     HORIZON_S,
     NONE,
+    RESPONSE_S,
     Manoeuvre,
     Paths,
+    mirrored,
     paths,
     separations,
     straight_paths,
@@ -21,7 +24,7 @@ from airhilt.assistant.decision.manoeuvres import (
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima, Relative, relative
 from airhilt.messages import Climb, MaintainLevel, Recommendation, Turn
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE
 
 VERTICAL_RATE_FPM = 1500.0
 """Recommended rate, in ft/min: that of TCAS II's initial advisories (ICAO Doc 9863)."""
@@ -38,6 +41,14 @@ LEAST_LEVEL_M = 600.0
 the engine does not know the terrain."""
 LEVEL_STEP_M = 100 * FOOT
 
+CLOSE = Minima(0.5 * NAUTICAL_MILE, 300.0 * FOOT)
+"""Distances that nobody is to be brought within who would pass farther apart: vertically the least
+ALIM of TCAS II (ICAO Doc 9863); horizontally assumed."""
+
+LAST_RESORT = 0.99
+"""Greatest margin of a candidate that keeps the two apart and is dangerous for another reason."""
+GAIN = 0.1
+"""Separation, in units of the minima, that other advice must gain to replace what was told."""
 Candidate = tuple[Manoeuvre, Manoeuvre]
 """Manoeuvres of the upper aircraft and of the lower one."""
 
@@ -48,6 +59,8 @@ class Resolution:
 
     first: Recommendation | None
     second: Recommendation | None
+    manoeuvres: Candidate
+    """What the two are to fly by these."""
     margin: float
     """Least distance in units of the minima; 1 or more keeps separation."""
 
@@ -59,11 +72,18 @@ def resolve(
     standard: Minima,
     infringed: Minima,
     strong: bool,
+    told: Candidate | None = None,
+    departs: tuple[bool, bool] = (False, False),
 ) -> Resolution:
     """Return the first candidate that keeps separation, or the one that keeps most of it.
 
     It aims at ``standard``; separation counts as lost below ``infringed``, the same less a
-    tolerance. A candidate that brings either into conflict with ``others`` is a last resort.
+    tolerance. A candidate that brings either into conflict with ``others`` is a last resort, and so
+    is one that brings the two close if one of them flies on, or does the opposite.
+
+    What they were ``told`` before stays unless something else keeps markedly more separation. Of
+    those who depart from it (``departs``), nothing is expected: the other one's manoeuvre alone
+    must do, and theirs as well, should they follow after all.
 
     An aircraft in distress is told nothing: the other one gives way.
 
@@ -74,19 +94,33 @@ def resolve(
     if abs(first.altitude_m - second.altitude_m) < 0.5 * standard.vertical_m:
         first_is_upper = first.icao24 > second.icao24
     upper, lower = (first, second) if first_is_upper else (second, first)
-    encounter = _Encounter(upper, lower, others, infringed)
-    best = _Choice(-math.inf, NONE, NONE)
+    up_departs, down_departs = departs if first_is_upper else departs[::-1]
+    encounter = _Encounter(
+        _Side(upper, up_departs),
+        _Side(lower, down_departs),
+        others,
+        infringed,
+        RESPONSE_S if told is None else CHANGED_RESPONSE_S,
+    )
+    stays = _Choice(-math.inf, NONE, NONE)
+    if told is not None:
+        stays = encounter.better(stays, [told if first_is_upper else told[::-1]])
+    best = stays
     for candidates in _candidates(_Pair(upper, lower, standard), strong):
         fair = [
             (up, down)
             for up, down in candidates
             if not (upper.in_distress and up != NONE) and not (lower.in_distress and down != NONE)
         ]
-        best = encounter.better(best, fair)
         if best.margin >= 1.0:
             break
-    told = _recommendation(upper, best.up), _recommendation(lower, best.down)
-    return Resolution(*(told if first_is_upper else told[::-1]), best.margin)
+        best = encounter.better(best, fair)
+    if told is not None and best.margin <= stays.margin + GAIN:
+        best = stays
+    for_upper, for_lower = _recommendation(upper, best.up), _recommendation(lower, best.down)
+    if first_is_upper:
+        return Resolution(for_upper, for_lower, (best.up, best.down), best.margin)
+    return Resolution(for_lower, for_upper, (best.down, best.up), best.margin)
 
 
 class _Pair:
@@ -146,6 +180,8 @@ def _verticals(pair: _Pair, rate_fpm: float) -> Iterator[Candidate]:
         yield Manoeuvre(pair.above_m, rate_m_s), NONE
     if LEAST_LEVEL_M <= pair.below_m < pair.lower.altitude_m:
         yield NONE, Manoeuvre(pair.below_m, rate_m_s)
+        if pair.above_m > pair.upper.altitude_m:
+            yield Manoeuvre(pair.above_m, rate_m_s), Manoeuvre(pair.below_m, rate_m_s)
 
 
 def _with_turn(manoeuvre: Manoeuvre, degrees: float) -> Manoeuvre:
@@ -165,46 +201,84 @@ def _flight_level_below(altitude_m: float) -> float:
 
 
 class _Choice(NamedTuple):
-    """A candidate with its margin, less 1 if it brings either into conflict with others."""
+    """A candidate with its margin, less 1 and below 1 if it is a last resort."""
 
     margin: float
     up: Manoeuvre
     down: Manoeuvre
 
 
+class _Side(NamedTuple):
+    """One of the two aircraft."""
+
+    track: Track
+    departs: bool
+    """True if it does not do what it was told before."""
+
+
 class _Encounter:
     """Paths of two aircraft, and of the others, in the frame of the upper one."""
 
-    def __init__(self, upper: Track, lower: Track, others: Sequence[Track], minima: Minima) -> None:
-        self._upper, self._both, self._minima = upper, (upper, lower), minima
+    def __init__(
+        self, up: _Side, down: _Side, others: Sequence[Track], minima: Minima, response_s: float
+    ) -> None:
+        self._up, self._down = up, down
+        self._minima, self._response_s = minima, response_s
         self._traffic = straight_paths(
-            [_over_ground(upper, each) for each in others], [each.profile() for each in others]
+            [_over_ground(up.track, each) for each in others], [each.profile() for each in others]
         )
+        self._stays = self._paths(up, [NONE]), self._paths(down, [NONE])
+        self._is_close = _is_within(CLOSE, *self._stays)
 
     def better(self, best: _Choice, candidates: Sequence[Candidate]) -> _Choice:
         if not candidates:
             return best
         ups, downs = (
-            paths(_over_ground(self._upper, track), track.profile(), manoeuvres)
-            for track, manoeuvres in zip(self._both, zip(*candidates, strict=True), strict=True)
+            self._paths(side, manoeuvres)
+            for side, manoeuvres in zip(
+                (self._up, self._down), zip(*candidates, strict=True), strict=True
+            )
         )
         margins = separations(ups, downs, self._minima)
+        up_stays, down_stays = self._stays
+        if self._up.departs:
+            margins = np.minimum(margins, separations(up_stays, downs, self._minima))
+        if self._down.departs:
+            margins = np.minimum(margins, separations(ups, down_stays, self._minima))
         for row, (up, down) in enumerate(candidates):
             margin = float(margins[row])
             if margin <= best.margin:
                 continue
-            if self._threatens(up, ups.soon(row)) or self._threatens(down, downs.soon(row)):
-                margin -= 1.0
+            threatens = self._threatens(up, ups.soon(row)) or self._threatens(down, downs.soon(row))
+            if threatens or self._endangers(up, down):
+                margin = min(margin - 1.0, LAST_RESORT)
             if margin > best.margin:
                 best = _Choice(margin, up, down)
             if margin >= 1.0:
                 break
         return best
 
+    def _paths(self, side: _Side, manoeuvres: Sequence[Manoeuvre]) -> Paths:
+        motion = _over_ground(self._up.track, side.track)
+        return paths(motion, side.track.profile(), manoeuvres, self._response_s)
+
     def _threatens(self, manoeuvre: Manoeuvre, flown: Paths) -> bool:
         if manoeuvre == NONE:
             return False
-        return bool(np.any(separations(flown, self._traffic, self._minima) < 1.0))
+        return _is_within(self._minima, flown, self._traffic)
+
+    def _endangers(self, up: Manoeuvre, down: Manoeuvre) -> bool:
+        """Return whether two come close who would not, if one flies on or does the opposite."""
+        if self._is_close:
+            return False
+        upper, lower = self._up.track, self._down.track
+        ups = self._paths(self._up, [up, up, NONE, mirrored(up, upper.altitude_m)])
+        downs = self._paths(self._down, [NONE, mirrored(down, lower.altitude_m), down, down])
+        return _is_within(CLOSE, ups, downs)
+
+
+def _is_within(minima: Minima, first: Paths, second: Paths) -> bool:
+    return bool(np.any(separations(first, second, minima) < 1.0))
 
 
 def _over_ground(origin: Track, track: Track) -> Relative:
@@ -234,3 +308,18 @@ def _recommendation(track: Track, manoeuvre: Manoeuvre) -> Recommendation | None
         vertical_rate_fpm=round(manoeuvre.rate_m_s / FOOT_PER_MINUTE),
         turn_deg=turn_deg,
     )
+
+
+def margin_of(
+    first: tuple[Track, Manoeuvre, float], second: tuple[Track, Manoeuvre, float], minima: Minima
+) -> float:
+    """Return the least separation of two by what is expected of each, in units of the minima.
+
+    Each has its track, its manoeuvre and the time to the begin of that, in s.
+    """
+    origin = first[0]
+    one, other = (
+        paths(_over_ground(origin, track), track.profile(), [manoeuvre], response_s)
+        for track, manoeuvre, response_s in (first, second)
+    )
+    return float(separations(one, other, minima)[0])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from airhilt.assistant.decision.alerts import Alert
@@ -13,7 +13,7 @@ from airhilt.assistant.decision.clearance_conflicts import activity_of
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.guard import ConfidenceGuard
-from airhilt.assistant.decision.mobiles import Mobile, Use, lined_up_on
+from airhilt.assistant.decision.mobiles import STANDING_M_S, Mobile, Use, lined_up_on
 from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.threats import RunwayConfig, Snapshot, Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
@@ -45,6 +45,8 @@ class _Ongoing:
     escalation: Escalation
     told: frozenset[str] = frozenset()
     """Recipients that were told of it last, by the names that they had then."""
+    recommendations: Mapping[str, Recommendation] = field(default_factory=dict)
+    """What each of them was told last, by the name that it had then."""
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""
     is_provisional: bool = True
@@ -167,17 +169,28 @@ class RunwayWatch:
         persistence_s = self.config.persistence_s if "adsb" in threat.sources[:1] else 0.0
         has_risen = ongoing.escalation.rises(threat.severity, t_ns, persistence_s)
         is_renamed = bool(ongoing.told) and not ongoing.told.issuperset(threat.parties)
-        if not has_risen and not is_renamed:
-            return None
-        ongoing.told = frozenset(threat.parties)
         severity = ongoing.escalation.severity or threat.severity
+        mobiles = {callsign: situation.mobile(callsign) for callsign in threat.parties}
         recommendations = {
             callsign: recommended
-            for callsign in threat.parties
-            if (mobile := situation.mobile(callsign)) is not None
+            for callsign, mobile in mobiles.items()
+            if mobile is not None
             and (recommended := advice(mobile, threat, severity, situation, self.config))
             is not None
         }
+        before = ongoing.recommendations
+        changes = ongoing.escalation.changes(
+            t_ns,
+            is_other=any(before.get(name) != each for name, each in recommendations.items()),
+            is_ignored=any(
+                mobile is not None and before.get(name) == each and not _is_done(mobile, each)
+                for name, each in recommendations.items()
+                for mobile in (mobiles[name],)
+            ),
+        )
+        if not has_risen and not is_renamed and not changes:
+            return None
+        ongoing.told, ongoing.recommendations = frozenset(threat.parties), recommendations
         return self._alert(ongoing, recommendations)
 
     def _calm(self, t_ns: int, key: tuple[str, ...]) -> Alert | None:
@@ -231,6 +244,13 @@ class RunwayWatch:
             recommendations=recommendations,
             active=active,
         )
+
+
+def _is_done(mobile: Mobile, recommended: Recommendation) -> bool:
+    """Return whether a mobile does what it was told, which is still recommended."""
+    if isinstance(recommended, GoAround):
+        return mobile.vertical_rate_m_s > 0.0 and not mobile.on_ground
+    return mobile.is_slowing or mobile.speed_m_s < STANDING_M_S
 
 
 def advice(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from airhilt.assistant.decision.advice import Advice
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.air_tracks import AirTracks, Pair, Reach
 from airhilt.assistant.decision.alerts import Alert
@@ -22,14 +23,13 @@ from airhilt.assistant.decision.loss_prediction import (
     SeparationStandard,
     predict,
 )
-from airhilt.assistant.decision.resolution import resolve
+from airhilt.assistant.decision.resolution import margin_of, resolve
 from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
     Briefing,
     Evidence,
     MaintainLevel,
-    Recommendation,
     Severity,
     Transcript,
 )
@@ -45,7 +45,8 @@ class _Conflict:
 
     pair: Pair
     escalation: Escalation
-    recommendations: tuple[Recommendation | None, Recommendation | None] = (None, None)
+    advice: tuple[Advice, Advice] | None = None
+    """What each of the two crews was told last; None before that."""
 
 
 class SeparationWatch:
@@ -152,21 +153,53 @@ class SeparationWatch:
             return []
         if level is None:
             return self._calm(t_ns, conflict, prediction)
-        if not conflict.escalation.rises(level, t_ns, self.config.persistence_s):
-            return []
-        if conflict.escalation.is_for_crews:
-            others = [track.at(t_ns) for track in self._tracks if track.icao24 not in pair]
-            is_warning = conflict.escalation.severity is Severity.WARNING
-            resolution = resolve(
-                prediction.first,
-                prediction.second,
-                others,
-                self.config.standard,
-                self.config.infringed,
-                strong=is_warning and conflict.escalation.has_alert,
+        escalation = conflict.escalation
+        has_risen = escalation.rises(level, t_ns, self.config.persistence_s)
+        before, is_ignored = conflict.advice, False
+        if escalation.is_for_crews and (before is None or not prediction.draws_apart):
+            is_ignored = self._advise(t_ns, conflict, prediction, anew=has_risen)
+        is_other = conflict.advice != before
+        changes = escalation.changes(t_ns, is_other=is_other, is_ignored=is_ignored)
+        return [self._alert(conflict, prediction, active=True)] if has_risen or changes else []
+
+    def _advise(
+        self, t_ns: int, conflict: _Conflict, prediction: Prediction, *, anew: bool
+    ) -> bool:
+        """Judge the advice in force again, and return whether a crew does not do as told.
+
+        It is kept while what both crews do of it keeps separation. It is replaced by what keeps
+        markedly more, and where the severity has risen by the best (``anew``).
+        """
+        tracks, before = (prediction.first, prediction.second), conflict.advice
+        told, departs = None, (False, False)
+        if before is not None:
+            first, second = (
+                (track, *each.expected(track)) for track, each in zip(tracks, before, strict=True)
             )
-            conflict.recommendations = (resolution.first, resolution.second)
-        return [self._alert(conflict, prediction, active=True)]
+            one, other = (
+                each.adherence(track) == "departs"
+                for track, each in zip(tracks, before, strict=True)
+            )
+            if margin_of(first, second, self.config.infringed) >= 1.0:
+                return one or other
+            told, departs = (before[0].left(tracks[0]), before[1].left(tracks[1])), (one, other)
+        resolution = resolve(
+            *tracks,
+            [track.at(t_ns) for track in self._tracks if track.icao24 not in conflict.pair],
+            self.config.standard,
+            self.config.infringed,
+            strong=told is not None and conflict.escalation.severity is Severity.WARNING,
+            told=None if anew else told,
+            departs=departs,
+        )
+        if resolution.manoeuvres != told:
+            one_before, other_before = before or (None, None)
+            one_flown, other_flown = resolution.manoeuvres
+            conflict.advice = (
+                Advice.of(resolution.first, one_flown, prediction.first, one_before),
+                Advice.of(resolution.second, other_flown, prediction.second, other_before),
+            )
+        return any(departs)
 
     def _predict(self, t_ns: int, pair: Pair) -> Prediction:
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
@@ -203,9 +236,9 @@ class SeparationWatch:
             evidence=prediction.evidence(),
             finding=LossOfSeparation(callsigns, prediction.time_to_loss_s),
             recommendations={
-                callsign: recommended
-                for callsign, recommended in zip(callsigns, conflict.recommendations, strict=True)
-                if recommended is not None
+                callsign: each.recommendation
+                for callsign, each in zip(callsigns, conflict.advice or (), strict=False)
+                if each.recommendation is not None
             },
             active=active,
         )

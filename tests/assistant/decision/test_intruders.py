@@ -78,7 +78,7 @@ def test_a_light_aircraft_head_on_is_a_warning_a_quarter_of_a_minute_before(
 ) -> None:
     encounter = meeting(seed, error_px=error_px).fly()
     assert 12.0 < first(encounter, "WARNING") < 22.0
-    warning = encounter.to("AAL123")[-2]
+    warning = next(each for each in encounter.to("AAL123") if each.severity == "WARNING")
     assert warning.recipients == ("AAL123", "ATC")
     assert warning.kind == "loss_of_separation"
     assert warning.traffic == ("AAL123", "unidentified")

@@ -117,7 +117,7 @@ def test_levels_come_before_a_turn_and_more_of_either_after_that() -> None:
     levels, turned, stronger, wide, combined = groups(upper, lower)
     assert rates(levels) == rates([levels[0]]) == {round(NORMAL_M_S, 6)}
     assert [(up != NONE, down != NONE) for up, down in levels] == [
-        (True, True), (True, False), (False, True),
+        (True, True), (True, False), (False, True), (True, True),
     ]  # fmt: skip
     assert turns(turned) == [(30, 30), (0, 30), (30, 0)]
     assert rates(turned) == rates(wide) == set()
@@ -128,7 +128,7 @@ def test_levels_come_before_a_turn_and_more_of_either_after_that() -> None:
     ]  # fmt: skip
     each_turn = (30, -30, 60, -60, 90, -90)
     assert turns(combined) == [
-        both for turn in each_turn for both in ((turn, turn), (turn, 0), (0, turn))
+        both for turn in each_turn for both in ((turn, turn), (turn, 0), (0, turn), (turn, turn))
     ]
 
 

@@ -126,7 +126,7 @@ def test_an_occupied_runway_is_a_caution_at_60_s_and_a_warning_to_go_around_at_3
     warning_s, warning = field.first("WARNING")
     assert 100 - caution_s == pytest.approx(60.0, abs=4.0)
     assert 100 - warning_s == pytest.approx(35.0, abs=4.0)
-    assert field.advice("AAL123") == [("go_around", "01")]
+    assert set(field.advice("AAL123")) == {("go_around", "01")}
     assert field.advice("OPS1") == []
     assert warning.recipients == ("AAL123", "OPS1", "ATC")
     assert warning.traffic == ("AAL123", "OPS1")
@@ -136,6 +136,7 @@ def test_an_occupied_runway_is_a_caution_at_60_s_and_a_warning_to_go_around_at_3
 
 
 def test_it_is_one_alert_in_plain_words_whose_severity_only_rises_and_that_ends() -> None:
+    """Nobody does as told: once there was time to, it is told again."""
     field = Airfield([arrival(100), vehicle(stands(800))]).run(150)
     for callsign, words in (
         ("AAL123", "AAL123 go around. OPS1 is on runway 01, "),
@@ -144,9 +145,13 @@ def test_it_is_one_alert_in_plain_words_whose_severity_only_rises_and_that_ends(
     ):
         told = field.to(callsign)
         assert told[1].message.startswith(words)
-        assert [advisory.severity for advisory in told] == ["CAUTION", "WARNING", "INFO"]
-        assert [advisory.active for advisory in told] == [True, True, False]
-        assert [advisory.revision for advisory in told] == [0, 1, 2]
+        *told_again, over = told[1:]
+        assert told[0].severity == "CAUTION"
+        assert {each.severity for each in told_again} == {"WARNING"}
+        assert len(told_again) > 1
+        assert over.severity == "INFO"
+        assert [advisory.active for advisory in told] == [True] * (len(told) - 1) + [False]
+        assert [advisory.revision for advisory in told] == list(range(len(told)))
         assert len({advisory.id for advisory in told}) == 1
     assert field.to("ATC")[1].message.endswith("; AAL123 go around")
 
@@ -170,7 +175,7 @@ def test_a_vehicle_that_drives_on_to_the_runway_is_told_to_hold_and_then_the_arr
     assert crosses_hold_line_s - 4.0 < first_s < reaches_pavement_s
     assert "is about to enter runway 01" in first.message
     assert field.advice("OPS1")[0] == ("hold_position", "01")
-    assert field.advice("AAL123") == [("go_around", "01")]
+    assert set(field.advice("AAL123")) == {("go_around", "01")}
     assert first_s < field.first("WARNING")[0] < reaches_pavement_s + 3.0
 
 
@@ -185,8 +190,8 @@ def test_the_better_the_position_the_earlier_an_entry_is_foreseen() -> None:
 
 def test_who_has_not_gone_when_the_arrival_is_near_holds_and_the_arrival_goes_around() -> None:
     field = Airfield([arrival(90), departure(999)]).run(80)
-    assert field.advice("DAL456") == [("cancel_takeoff", "01")] * 2
-    assert field.advice("AAL123") == [("go_around", "01")]
+    assert set(field.advice("DAL456")) == {("cancel_takeoff", "01")}
+    assert set(field.advice("AAL123")) == {("go_around", "01")}
 
 
 def test_an_outage_does_not_clear_a_runway() -> None:
@@ -198,7 +203,7 @@ def test_an_outage_does_not_clear_a_runway() -> None:
 
     field._report = silent
     field.run(95)
-    assert [advisory.active for advisory in field.to("ATC")] == [True, True]
+    assert all(advisory.active for advisory in field.to("ATC"))
 
 
 # --- what was said: steps (a) and (c) -------------------------------------------------------

@@ -52,7 +52,7 @@ def test_a_silent_truck_on_the_runway_sends_the_arrival_around(
     warning_s, warning = field.first("WARNING")
     assert LANDS_S - caution_s == pytest.approx(60.0, abs=5.0)
     assert LANDS_S - warning_s == pytest.approx(35.0, abs=3.0)
-    assert field.advice("AAL123") == [("go_around", "01")]
+    assert set(field.advice("AAL123")) == {("go_around", "01")}
     assert warning.recipients == ("AAL123", "ATC")
     assert warning.evidence.sources == ("vision", "adsb")
     assert "unidentified truck on runway 01" in warning.message
@@ -98,7 +98,7 @@ def test_an_animal_of_the_briefing_is_announced_by_a_camera_that_is_near_enough(
     _, warning = field.first("WARNING")
     assert f", {label} on runway 01" in warning.message
     assert warning.traffic == ("AAL123", "wildlife")
-    assert field.advice("AAL123") == [("go_around", "01")]
+    assert set(field.advice("AAL123")) == {("go_around", "01")}
     assert look_at(arrival(), cameras=[far]).told == []
 
 
@@ -116,7 +116,7 @@ def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway() -> N
     field = look_at(own, truck, cameras=[nose])
     warning_s, _ = field.first("WARNING")
     assert 15.0 < LANDS_S - warning_s < 36.0
-    assert field.advice("AAL123") == [("go_around", "01")]
+    assert set(field.advice("AAL123")) == {("go_around", "01")}
 
 
 def test_a_camera_that_gives_no_more_pictures_clears_nothing_at_once_but_in_time() -> None:
@@ -168,7 +168,7 @@ def test_a_flock_that_rises_into_the_final_approach_sends_the_arrival_around() -
     assert 45.0 < warning_s < 51.0
     assert "birds on final for runway 01" in warning.message
     assert warning.traffic == ("AAL123", "wildlife")
-    assert field.advice("AAL123") == [("go_around", "01")]
+    assert set(field.advice("AAL123")) == {("go_around", "01")}
 
 
 def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_runway() -> None:
