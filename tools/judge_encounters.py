@@ -1,12 +1,18 @@
-"""Judges a decision engine on random encounters of two aircraft in which nobody reacts.
+"""Judges a decision engine on random encounters of two aircraft.
 
     python tools/judge_encounters.py
     python tools/judge_encounters.py --count 1000 --seed 7 --assistant reference
+    python tools/judge_encounters.py --closed-loop --count 1000
     python tools/judge_encounters.py --json
 
-Counts the losses of separation (5 NM and 1,000 ft) of which no CAUTION or WARNING told before, how
-long before a loss the WARNING came, and the encounters outside of 1.5 times the minima in which
-there was one. `pairs.geometry` gives the distributions.
+In open loop nobody reacts. It counts the losses of separation (5 NM and 1,000 ft) of which no
+CAUTION or WARNING told before, how long before a loss the WARNING came, and the encounters outside
+of 1.5 times the minima in which there was one.
+
+In closed loop the two pass close, and crews act: both as they are told, or one does nothing, or one
+does the opposite because of a controller. For each response model it counts the near mid-air
+collisions without the engine, those of them that it leaves (unresolved), and the others that come
+about with it (induced). `pairs.geometry` gives the distributions.
 """
 
 from __future__ import annotations
@@ -14,15 +20,21 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
+from rich.console import Console
 from rich.progress import track
+from rich.table import Table
 
 import standard_output
 from airhilt.engine_families import ASSISTANTS
+from airhilt.scenario.models.responses import RESPONSE_MODELS
+from pairs import closed_loop
+from pairs.closed_loop import Crews, Manner
 from pairs.flying import Outcome, fly
-from pairs.geometry import draw
+from pairs.geometry import draw, draw_close
 
 IN_TIME_S = 30.0
 """A WARNING comes in time if it is at least this long before the loss, in s."""
@@ -31,6 +43,12 @@ LONG_BEFORE_S = 60.0
 ALLOWANCE_S = 5.0
 """Time after the begin of a manoeuvre, in s, in which it shows in ADS-B and is believed."""
 OUTSIDE = 1.5
+MANNERS: tuple[tuple[Manner, Manner], ...] = (
+    ("follows", "follows"),
+    ("follows", "ignores"),
+    ("follows", "opposite"),
+)
+"""What the two crews do, in closed loop."""
 
 
 def main() -> None:
@@ -41,8 +59,12 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=300, help="number of encounters")
     parser.add_argument("--seed", type=int, default=0, help="seed of the draws")
     parser.add_argument("--assistant", default="reference", help="decision engine")
+    parser.add_argument("--closed-loop", action="store_true", help="crews act")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     given = parser.parse_args()
+    if given.closed_loop:
+        print_closed_loop(given)
+        return
     outcomes = []
     for number in track(range(given.count), "flying", disable=given.json, transient=True):
         encounter = draw(np.random.default_rng((given.seed, number)))
@@ -53,6 +75,37 @@ def main() -> None:
         return
     for name, value in numbers.items():
         print(f"{name:40}{value if value is not None else '-'}")
+
+
+def print_closed_loop(given: argparse.Namespace) -> None:
+    """Fly close encounters with crews that act, and print what they came to."""
+    every = [Crews(model, manners) for model in RESPONSE_MODELS for manners in MANNERS]
+    counts = {crews: Counter[str]() for crews in every}
+    for number in track(range(given.count), "flying", disable=given.json, transient=True):
+        encounter = draw_close(np.random.default_rng((given.seed, number)))
+        unassisted = closed_loop.fly_on(encounter)
+        for crews in every:
+            engine = ASSISTANTS.create(given.assistant)
+            flown = closed_loop.fly(encounter, engine, crews, given.seed + number)
+            counts[crews].update(
+                unassisted=unassisted.is_nmac,
+                unresolved=flown.is_nmac and unassisted.is_nmac,
+                induced=flown.is_nmac and not unassisted.is_nmac,
+                alerts=flown.alerts,
+                reversals=flown.reversals,
+            )
+    rows = [
+        {"crews": crews.model, "first": one, "second": other, **counts[crews]}
+        for crews in every
+        for one, other in (crews.manners,)
+    ]
+    if given.json:
+        print(json.dumps({"encounters": given.count, "rows": rows}, indent=2))
+        return
+    table = Table(*rows[0], title=f"{given.count} encounters")
+    for row in rows:
+        table.add_row(*map(str, row.values()))
+    Console().print(table)
 
 
 def judged(outcomes: Sequence[Outcome]) -> dict[str, float | int | list[int] | None]:

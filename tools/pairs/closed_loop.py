@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
@@ -161,11 +161,13 @@ def _pair(encounter: Encounter) -> tuple[_Aircraft, _Aircraft]:
     return _Aircraft(encounter.first, "ENC1"), _Aircraft(encounter.second, "ENC2")
 
 
-def _flown(pair: tuple[_Aircraft, _Aircraft], duration_s: float, step: object) -> Flown:
+def _flown(
+    pair: tuple[_Aircraft, _Aircraft], duration_s: float, step: Callable[[int, float], None]
+) -> Flown:
     least = math.inf
     for number in range(round(duration_s / STEP_S)):
         time_s = number * STEP_S
-        step(number, time_s)  # type: ignore[operator]
+        step(number, time_s)
         first, second = pair
         horizontal = math.hypot(first.east_m - second.east_m, first.north_m - second.north_m)
         vertical = abs(first.altitude_m - second.altitude_m)
