@@ -88,9 +88,9 @@ def print_closed_loop(given: argparse.Namespace) -> None:
             engine = ASSISTANTS.create(given.assistant)
             flown = closed_loop.fly(encounter, engine, crews, given.seed + number)
             counts[crews].update(
-                unassisted=unassisted.is_nmac,
-                unresolved=flown.is_nmac and unassisted.is_nmac,
-                induced=flown.is_nmac and not unassisted.is_nmac,
+                unassisted=int(unassisted.is_nmac),
+                unresolved=int(flown.is_nmac and unassisted.is_nmac),
+                induced=int(flown.is_nmac and not unassisted.is_nmac),
                 alerts=flown.alerts,
                 reversals=flown.reversals,
             )

@@ -99,7 +99,7 @@ def _lead(name: str, seed: int, assistant: str) -> Lead:
 
 def lead_s(summary: Summary, advisories: Sequence[Advisory], severity: Severity) -> float | None:
     """Return how long before the closest approach the first advisory came that is so severe."""
-    meant = {one.id for one in summary.advisories if not one.nuisance}
+    meant = {one.id for one in summary.advisories if not one.nuisance_to}
     times = [
         each.t_ns for each in advisories if each.id in meant and each.severity.rank >= severity.rank
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
+from itertools import combinations
 
 from airhilt.messages import (
     CONTROLLER,
@@ -23,6 +24,10 @@ SEEN_WITHIN_NS = 10 * SECOND_NS
 
 
 CLARIFICATION: AdvisoryKind = "clarification"
+Involved = tuple[frozenset[str], float]
+"""Actors of a runway incursion, of whom one may be alone, and its begin in s."""
+NOBODY = "nobody"
+"""Whom an alert is a nuisance to that names nobody."""
 
 
 @dataclass
@@ -31,8 +36,12 @@ class AdvisoryRecord:
 
     first: Advisory
     """The advisory as it was published first."""
-    loses_separation: bool
-    """True if its traffic was then going to lose separation."""
+    traffic: dict[str, None] = field(default_factory=dict)
+    """Whom it has named, in their order."""
+    losing: frozenset[str] = frozenset()
+    """Callsigns of these that were then going to lose separation from another of them."""
+    to_be_seen: frozenset[frozenset[str]] = frozenset()
+    """The pairs of which a conflict had begun then, or was to be seen."""
     concerns_conflict: bool = False
     """True if a revision of it was about the annotated pair."""
     shown: frozenset[str] = frozenset()
@@ -40,6 +49,8 @@ class AdvisoryRecord:
     severity: Severity = Severity.INFO
     """Highest severity of all revisions."""
     revisions: set[int] = field(default_factory=set)
+    last_s: float = 0.0
+    """Time of its last revision."""
     spoken_ns: int | None = None
     """Time at which its voice was first heard, None if it never was."""
 
@@ -49,7 +60,8 @@ class AdvisoryRecords:
 
     The callsigns of the actors are by all their names, as `Scenario.callsigns` has them. Without an
     annotated conflict there is no pair. `was_seen` tells whether a camera's detection really showed
-    an actor since a time in ns.
+    an actor since a time in ns, and `shows` whether a conflict of two has begun, or is to be seen
+    by now: who warns of it before that does not know it.
     """
 
     def __init__(
@@ -58,23 +70,30 @@ class AdvisoryRecords:
         pair: Pair | None,
         monitor: ConflictMonitor,
         was_seen: Callable[[str, int], bool],
+        shows: Callable[[Pair], bool],
     ) -> None:
         self._callsigns = callsigns
         self._pair = pair
         self._monitor = monitor
         self._was_seen = was_seen
+        self._shows = shows
         self._records: dict[str, AdvisoryRecord] = {}
 
     def add(self, advisory: Advisory) -> bool:
         """Add an advisory; return true if it is a new revision."""
         record = self._records.get(advisory.id)
         if record is None:
-            record = AdvisoryRecord(advisory, self._loses_separation(advisory))
+            record = AdvisoryRecord(advisory)
             self._records[advisory.id] = record
         if advisory.revision in record.revisions:
             return False
         record.revisions.add(advisory.revision)
+        record.last_s = advisory.t_ns / SECOND_NS
         record.severity = max(record.severity, advisory.severity, key=lambda one: one.rank)
+        record.traffic |= dict.fromkeys(self._traffic(advisory))
+        record.losing |= self._losing(advisory)
+        everybody = combinations(sorted(set(self._callsigns.values())), 2)
+        record.to_be_seen |= {frozenset(pair) for pair in everybody if self._shows(pair)}
         record.concerns_conflict |= self._concerns_conflict(advisory)
         record.shown |= self._shown(advisory)
         return True
@@ -97,11 +116,12 @@ class AdvisoryRecords:
         )
 
     def nuisance_alerts(self, incursions: Iterable[RunwayIncursion]) -> int:
-        """Return the number of alerts about traffic in no conflict, annotated or real."""
+        """Return how often an alert names somebody in no conflict, annotated or real."""
         involved = _involved(incursions)
         return sum(
-            record.severity.rank >= SPEAK_MIN_LEVEL.rank and self._is_nuisance(record, involved)
+            len(self._nuisance_to(record, involved))
             for record in self._records.values()
+            if record.severity.rank >= SPEAK_MIN_LEVEL.rank
         )
 
     def clarifications(self) -> int:
@@ -120,14 +140,15 @@ class AdvisoryRecords:
                 t_spoken_s=ns_to_seconds(record.spoken_ns),
                 severity=record.severity,
                 revisions=len(record.revisions),
-                nuisance=self._is_nuisance(record, involved),
+                nuisance_to=self._nuisance_to(record, involved),
             )
             for record in self._records.values()
         ]
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
         pair = frozenset(self._pair or ())
-        return self._concerns(advisory, pair, self._shown(advisory))
+        is_of_pair = self._concerns(advisory, pair, self._shown(advisory))
+        return self._pair is not None and is_of_pair and self._shows(self._pair)
 
     def _concerns(self, advisory: Advisory, actors: Set[str], shown: Set[str]) -> bool:
         """Return true if an advisory is about some actors that are in one conflict.
@@ -155,28 +176,43 @@ class AdvisoryRecords:
         """Return the callsigns of an advisory's traffic, and names that no actor has."""
         return tuple(self._callsigns.get(name, name) for name in advisory.traffic)
 
-    def _loses_separation(self, advisory: Advisory) -> bool:
-        traffic = advisory.traffic
-        if len(traffic) != 2 or not all(name in self._callsigns for name in traffic):
-            return False
-        first, second = self._traffic(advisory)
-        loss_s = self._monitor.time_to_loss_s((first, second))
+    def _losing(self, advisory: Advisory) -> frozenset[str]:
+        known = {name for name in self._traffic(advisory) if name in self._callsigns}
+        pairs = combinations(sorted(known), 2)
+        return frozenset(name for pair in pairs if self._will_lose(pair) for name in pair)
+
+    def _will_lose(self, pair: Pair) -> bool:
+        loss_s = self._monitor.time_to_loss_s(pair)
         return loss_s is not None and loss_s <= JUSTIFIED_WITHIN_S
 
-    def _is_nuisance(self, record: AdvisoryRecord, involved: Iterable[frozenset[str]]) -> bool:
-        """Return true if the traffic is in no conflict, annotated or real.
+    def _nuisance_to(self, record: AdvisoryRecord, involved: Iterable[Involved]) -> tuple[str, ...]:
+        """Return whom an alert names that is in no conflict, annotated or real.
 
-        In a scenario without a conflict, every alert is a nuisance whose conflict did not happen.
+        In a scenario without a conflict, that are all whom an alert names whose conflict did not
+        happen.
         """
-        if record.concerns_conflict or record.first.kind == CLARIFICATION:
-            return False
-        if record.first.kind == "loss_of_separation":
-            return self._pair is None or not record.loses_separation
-        return not any(self._concerns(record.first, actors, record.shown) for actors in involved)
+        traffic = tuple(record.traffic)
+        if record.first.kind == CLARIFICATION:
+            return ()
+        in_conflict: set[str] = set()
+        if record.concerns_conflict:
+            in_conflict.update(self._pair or ())
+        if record.first.kind != "loss_of_separation":
+            for actors, t_s in involved:
+                is_seen = actors in record.to_be_seen if len(actors) > 1 else t_s <= record.last_s
+                if is_seen and self._concerns(record.first, actors, record.shown):
+                    in_conflict |= actors
+        elif self._pair is not None:
+            in_conflict |= record.losing
+        if not in_conflict:
+            return traffic or (NOBODY,)
+        return tuple(
+            name for name in traffic if name in self._callsigns and name not in in_conflict
+        )
 
 
-def _involved(incursions: Iterable[RunwayIncursion]) -> list[frozenset[str]]:
+def _involved(incursions: Iterable[RunwayIncursion]) -> list[Involved]:
     return [
-        frozenset(actor for actor in (one.user, one.intruder) if actor is not None)
+        (frozenset(actor for actor in (one.user, one.intruder) if actor is not None), one.t_s)
         for one in incursions
     ]

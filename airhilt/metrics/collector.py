@@ -23,7 +23,7 @@ from airhilt.messages import (
     ModelExchange,
     Status,
 )
-from airhilt.metrics.advisories import AdvisoryRecords
+from airhilt.metrics.advisories import JUSTIFIED_WITHIN_S, AdvisoryRecords
 from airhilt.metrics.calls import CallRecords
 from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.equipment import EquipmentRecords
@@ -40,7 +40,7 @@ from airhilt.scenario.models import LineBegun, Scenario
 from airhilt.sim import StepRecord
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, ns_to_seconds
-from airhilt.world.truth.conflicts import ConflictMonitor
+from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import RunwayMonitor
 
 
@@ -90,6 +90,7 @@ class Collector:
         self._scenario = scenario
         self._is_on_frequency = is_on_frequency
         pair = scenario.pair
+        self._monitor, self._runways = monitor, runways
         self._outcome = Outcome(monitor, runways, pair)
         self._first_warning = FirstWarning(pair, monitor, plans, ground_m)
         self._latencies = StageLatencies()
@@ -99,7 +100,12 @@ class Collector:
         self._exchanges: list[ModelExchange] = []
         self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors], pace)
         new_records = partial(
-            AdvisoryRecords, scenario.callsigns, pair, monitor, self._detections.was_seen
+            AdvisoryRecords,
+            scenario.callsigns,
+            pair,
+            monitor,
+            self._detections.was_seen,
+            self._shows,
         )
         self._advisories = new_records()
         self._equipment = EquipmentRecords(scenario.equipment, new_records)
@@ -154,6 +160,18 @@ class Collector:
         if self._advisories.warns_of_conflict(advisory):
             is_voiced = self.modalities.get("tts") == "on" or self._is_called(advisory.recipient)
             self._first_warning.warned(advisory, is_voiced)
+
+    def _shows(self, pair: Pair) -> bool:
+        """Return whether a conflict has begun as annotated, or is to be seen.
+
+        It is in the tracks of two, or where they are on runways.
+        """
+        if pair == self._scenario.pair and self.window.begun_ns is not None:
+            return True
+        loss_s = self._monitor.time_to_loss_s(pair)
+        if loss_s is not None and loss_s <= JUSTIFIED_WITHIN_S:
+            return True
+        return self._runways is not None and self._runways.share_runway(*pair)
 
     def _is_called(self, recipient: str) -> bool:
         """Return whether a recipient hears advisories on its frequency."""

@@ -85,7 +85,9 @@ class AdvisorySummary(_Part):
     t_spoken_s: float | None = Field(description="its audio began; null: it was never spoken")
     severity: Severity = Field(description="highest severity of all revisions")
     revisions: int
-    nuisance: bool
+    nuisance_to: tuple[str, ...] = Field(
+        description="names of its traffic that were in no conflict; ``nobody`` if it names none"
+    )
 
 
 class EquipmentSummary(_Part):
@@ -485,8 +487,8 @@ class Summary(_Part):
         "with an assistant, without a conflict, or if equipment of the world averted it",
     )
     nuisance_alerts: int | None = Field(
-        description="advisories of CAUTION or above about traffic that was in no conflict; null if "
-        "cameras left exposures out, because what is really there decided on them"
+        description="how often an advisory of CAUTION or above names somebody in no conflict; null "
+        "if cameras left exposures out, because what is really there decided on them"
     )
     clarifications: int = Field(
         default=0, description="advisories that ask to confirm what was heard in doubt"

@@ -60,7 +60,7 @@ def advisory(severity: str) -> AdvisorySummary:
             "t_spoken_s": None,
             "severity": severity,
             "revisions": 1,
-            "nuisance": False,
+            "nuisance_to": [],
         }
     )
 

@@ -102,14 +102,28 @@ def advisory(**given: Any) -> Advisory:
 
 
 def records(
-    pair: Any = PAIR, seen_ns: dict[str, int] | None = None, loss_s: float | None = None
+    pair: Any = PAIR,
+    seen_ns: dict[str, int] | None = None,
+    loss_s: float | None = None,
+    shows: bool = True,
 ) -> AdvisoryRecords:
     callsigns = {name: name for name in ("AAL1", "DAL2", "OPS1")} | {"abc123": "AAL1"}
     monitor = SimpleNamespace(time_to_loss_s=lambda _: loss_s)
     seen = seen_ns or {}
     return AdvisoryRecords(
-        callsigns, pair, cast(Any, monitor), lambda name, since_ns: seen.get(name, -1) >= since_ns
+        callsigns,
+        pair,
+        cast(Any, monitor),
+        lambda name, since_ns: seen.get(name, -1) >= since_ns,
+        lambda _: shows,
     )
+
+
+def test_a_warning_before_anything_of_the_conflict_shows_is_a_nuisance_to_the_pair() -> None:
+    told = records(shows=False)
+    told.add(advisory(traffic=PAIR))
+    assert not told.warns_of_conflict(advisory(traffic=PAIR))
+    assert told.nuisance_alerts([]) == 2
 
 
 @pytest.mark.parametrize(
@@ -156,7 +170,7 @@ def test_nobody_is_warned_by_what_is_over_asked_mild_or_for_a_stranger(
 
 @pytest.mark.parametrize(
     ("loss_s", "pair", "count"),
-    [(300.0, PAIR, 0), (301.0, PAIR, 1), (None, PAIR, 1), (10.0, None, 1)],
+    [(300.0, PAIR, 0), (301.0, PAIR, 2), (None, PAIR, 2), (10.0, None, 2)],
 )
 def test_a_loss_of_separation_within_5_min_is_no_nuisance(
     loss_s: float | None, pair: Any, count: int
@@ -176,9 +190,18 @@ def test_an_alert_about_an_incursion_or_the_pair_is_no_nuisance_and_a_question_n
     told.add(advisory(id="c", kind="clarification", traffic=("OPS1",)))
     told.add(advisory(id="d", traffic=("OPS1", "DAL2"), severity=Severity.ADVISORY))
     assert told.nuisance_alerts([real]) == 0
-    assert told.nuisance_alerts([]) == 1
+    assert told.nuisance_alerts([]) == 2
     assert told.clarifications() == 1
-    assert [each.nuisance for each in told.summaries([])] == [False, True, False, True]
+    assert [bool(each.nuisance_to) for each in told.summaries([])] == [False, True, False, True]
+
+
+def test_an_alert_is_a_nuisance_to_each_whom_it_names_and_who_is_in_no_conflict() -> None:
+    told = records()
+    told.add(advisory(id="a", traffic=PAIR))
+    told.add(advisory(id="a", revision=1, traffic=(*PAIR, "OPS1")))
+    assert [each.nuisance_to for each in told.summaries([])] == [("OPS1",)]
+    assert told.nuisance_alerts([]) == 1
+    assert told.warns_of_conflict(advisory(traffic=(*PAIR, "OPS1")))
 
 
 def test_each_revision_counts_once_and_the_gravest_of_all() -> None:

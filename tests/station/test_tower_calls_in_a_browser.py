@@ -1,7 +1,7 @@
 """The same calls of a tower, typed or spoken at its seat in a browser, in runs in real time.
 
-All of them take hours, one after another: ``pytest -m slow -n 6 -k typed`` with this file; each run
-needs little of a processor.
+All of them take hours, one after another: ``pytest -m slow -n 6 --dist load -k typed`` with this
+file; each run needs little of a processor.
 """
 
 from __future__ import annotations

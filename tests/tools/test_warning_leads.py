@@ -35,7 +35,8 @@ def advisory(name: str, t_s: int) -> Advisory:
 def test_a_nuisance_alert_gives_no_lead() -> None:
     told = [
         AdvisorySummary(
-            id=name, nuisance=name == "cloud", kind="runway_conflict", traffic=(), t_first_s=0.0,
+            id=name, nuisance_to=("AAL1",) if name == "cloud" else (), kind="runway_conflict",
+            traffic=(), t_first_s=0.0,
             t_spoken_s=None, severity=Severity.CAUTION, revisions=1,
         )
         for name in ("cloud", "meeting")

@@ -53,11 +53,15 @@ class SeparationWatch:
     """Watches the aircraft in flight.
 
     Aircraft on the ground are no part of it, and neither are two that are both near an airport
-    with a tower, which separates them by sight (FAA Order JO 7110.65, 7-2-1).
+    with a tower, which separates them by sight (FAA Order JO 7110.65, 7-2-1). Where it does not
+    advise, it tells of conflicts alone, and not what to do.
     """
 
-    def __init__(self, config: SeparationConfig, guard: ConfidenceGuard) -> None:
+    def __init__(
+        self, config: SeparationConfig, guard: ConfidenceGuard, *, advises: bool = True
+    ) -> None:
         self.config = SeparationStandard(**config.model_dump())
+        self._advises = advises
         self._zone: TrafficZone | None = None
         self._tracks = AirTracks()
         self._readbacks = LevelReadbacks(self._tracks, guard)
@@ -156,7 +160,8 @@ class SeparationWatch:
         escalation = conflict.escalation
         has_risen = escalation.rises(level, t_ns, self.config.persistence_s)
         before, is_ignored = conflict.advice, False
-        if escalation.is_for_crews and (before is None or not prediction.draws_apart):
+        is_open = before is None or not prediction.draws_apart
+        if self._advises and escalation.is_for_crews and is_open:
             is_ignored = self._advise(t_ns, conflict, prediction, anew=has_risen)
         is_other = conflict.advice != before
         changes = escalation.changes(t_ns, is_other=is_other, is_ignored=is_ignored)

@@ -213,6 +213,20 @@ class RunwayMonitor:
         """Return whether an actor is going to use a runway, in that direction."""
         return self._actors[callsign].bound_runway == self._layout.runway(runway).ident
 
+    def share_runway(self, first: str, second: str) -> bool:
+        """Return whether two occupy one runway, or soon land on it, or on two that cross."""
+        on = [
+            {
+                name
+                for name, occupants in self._occupants.items()
+                if callsign in occupants
+                or callsign in (arrival.actor for arrival in self._arrivals[name])
+            }
+            for callsign in (first, second)
+        ]
+        crossed = {other for name in on[0] for other, _ in self._crossings.get(name, ())}
+        return not on[1].isdisjoint(on[0] | crossed)
+
     def time_to_threshold_s(self, callsign: str, runway: str) -> float | None:
         """Return the time of an airborne aircraft to the threshold of its runway, in s, or None."""
         actor = self._actors[callsign]

@@ -32,7 +32,7 @@ class ConflictAlertEngine:
         config = SeparationConfig(
             advisory_s=LOOK_AHEAD_S, caution_s=LOOK_AHEAD_S, warning_s=LOOK_AHEAD_S
         )
-        self._watch = SeparationWatch(config, ConfidenceGuard())
+        self._watch = SeparationWatch(config, ConfidenceGuard(), advises=False)
 
     def receive(self, received: ReceivedMessage) -> None:
         """Update tracks with a report, or the minima with the briefing."""
@@ -44,10 +44,7 @@ class ConflictAlertEngine:
 
     def decide(self, t_ns: int) -> Decision:
         """Return the alerts that are new or over."""
-        alerts = [
-            replace(alert, recipients=(CONTROLLER,), recommendations={})
-            for alert in self._watch.judge(t_ns)
-        ]
+        alerts = [replace(alert, recipients=(CONTROLLER,)) for alert in self._watch.judge(t_ns)]
         again_ns = t_ns + COASTING_NS if self._watch.has_conflict else None
         return Decision(alerts, again_ns=again_ns)
 
