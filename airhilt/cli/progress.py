@@ -126,6 +126,7 @@ def _rows(summary: Summary) -> Iterator[tuple[str, str]]:
     yield "conflict window", _conflict_window(summary)
     yield "first warning", _seconds(summary.t_first_warning_s)
     yield "time to first warning", _seconds(summary.time_to_first_warning_s)
+    yield "from the window on", _seconds(summary.time_to_first_warning_after_window_s)
     if (parts := summary.first_warning_parts) is not None:
         spans = {
             "speech": parts.speech_s,

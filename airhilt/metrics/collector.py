@@ -232,6 +232,9 @@ class Collector:
             "t_conflict_end_s": ns_to_seconds(self.window.end_ns(now_ns)),
             "t_first_warning_s": warning_s,
             "time_to_first_warning_s": _difference(warning_s, conflict_s),
+            "time_to_first_warning_after_window_s": _difference(
+                warning_s, ns_to_seconds(self.window.opened_ns)
+            ),
             "time_to_first_warning_after_call_s": _difference(
                 warning_s, ns_to_seconds(self._call_ended_ns())
             ),

@@ -65,6 +65,13 @@ class Measure:
 TIME_TO_FIRST_WARNING = Measure(
     "time_to_first_warning", "Time to first warning", "s", "mean", "time_to_first_warning_s"
 )
+TIME_AFTER_WINDOW = Measure(
+    "time_to_first_warning_after_window",
+    "Time to first warning from the conflict window on",
+    "s",
+    "mean",
+    "time_to_first_warning_after_window_s",
+)
 WARNED = Measure("warned", "Warned", "%", "share", "warned")
 IN_TIME = Measure("warned_in_time", "Warned in time", "%", "share", "warned_in_time")
 MISSED = Measure("missed", "Missed", "%", "share", "missed")
@@ -84,6 +91,7 @@ FIRST_DETECTION = Measure(
 RECALL = Measure("recall", "Recall of sightings", "%", "mean", "vision_recall")
 MEASURES = (
     TIME_TO_FIRST_WARNING,
+    TIME_AFTER_WINDOW,
     WARNED,
     IN_TIME,
     MISSED,

@@ -435,6 +435,11 @@ class Summary(_Part):
     time_to_first_warning_s: float | None = Field(
         description="t_first_warning - t_conflict; negative: before the conflict began"
     )
+    time_to_first_warning_after_window_s: float | None = Field(
+        default=None,
+        description="t_first_warning - t_window, which is the paper's t_conflict; negative: "
+        "before the conflict window opened",
+    )
     time_to_first_warning_after_call_s: float | None = Field(
         default=None,
         description="t_first_warning less the end of the call that begins the conflict; negative: "

@@ -45,8 +45,8 @@ SPOKEN = (
 """Landing, take-off, taxi, hold short, cross, go around, heading and level, contact, circuit."""
 SAYINGS = 3
 """Most times that somebody says the same who is asked to, or whom nobody answers."""
-ANSWERED_S = 15.0
-SPOKEN_FOR_S = 60.0
+ANSWERED_S = 30.0
+SPOKEN_FOR_S = 90.0
 """Time in s that saying it again may take."""
 TIME_S = (
     "document.getElementById('time').textContent.split(' ')[0].split(':')"

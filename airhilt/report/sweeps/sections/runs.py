@@ -12,6 +12,7 @@ from airhilt.report.sweeps.sections import SweepSection
 
 SHOWN = (
     "time_to_first_warning_s",
+    "time_to_first_warning_after_window_s",
     "warned",
     "warned_in_time",
     "missed",

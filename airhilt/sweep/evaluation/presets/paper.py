@@ -62,6 +62,13 @@ def _comparison(rows: Sequence[Row], choice: Choice) -> Table:
                 warning,
                 "result",
             ),
+            _compared(
+                "the same, from the opening of the conflict window on, s",
+                TIME_TO_FIRST_WARNING_S,
+                rows,
+                "time_to_first_warning_after_window_s",
+                "result",
+            ),
             _compared("ASR latency, s", ASR_S, rows, "latencies_asr_p50_s", GIVEN),
             _compared("vision latency, s", VISION_S, rows, "latencies_vision_p50_s", GIVEN),
             _compared(
