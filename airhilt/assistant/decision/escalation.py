@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from airhilt.assistant.decision.alerts import Alert
@@ -64,24 +64,26 @@ class Escalation:
         self._told_ns = t_ns
         return True
 
-    def changes(self, t_ns: int, *, is_other: bool, is_ignored: bool) -> bool:
-        """Return whether advice is to be told though the severity has not risen.
+    def changes(
+        self, t_ns: int, *, other: Collection[str], ignoring: Collection[str]
+    ) -> frozenset[str]:
+        """Return who is to be told something though the severity has not risen.
 
         Parameters
         ----------
-        is_other
-            True if it is other advice than was told last.
-        is_ignored
-            True if somebody does not do what was told last: a WARNING is told again then.
+        other
+            Callsigns whose advice is other than they were told last.
+        ignoring
+            Callsigns that do not do what they were told last: a WARNING is told again then.
         """
         if not self.is_for_crews or self._told_ns is None:
-            return False
+            return frozenset()
         is_warning = self.severity is Severity.WARNING
         is_due = is_warning and t_ns - self._told_ns >= AGAIN_S * SECOND_NS
-        if not is_other and not (is_ignored and is_due):
-            return False
-        self._told_ns = t_ns
-        return True
+        news = frozenset((*other, *(ignoring if is_due else ())))
+        if news:
+            self._told_ns = t_ns
+        return news
 
     def observe(self, level: Severity | None, t_ns: int) -> None:
         """Update how long each level has held, without telling anything; None for no conflict.

@@ -202,10 +202,11 @@ class IntruderWatch:
                 encounter.severity, t_ns, self.config.persistence_s
             )
             # What is seen to come on as before was not avoided.
-            changes = ongoing.escalation.changes(
-                t_ns, is_other=False, is_ignored=encounter.severity is Severity.WARNING
+            is_warning = encounter.severity is Severity.WARNING
+            news = ongoing.escalation.changes(
+                t_ns, other=(), ignoring=(encounter.carrier,) if is_warning else ()
             )
-            if has_risen or changes:
+            if has_risen or news:
                 if ongoing.escalation.severity is Severity.WARNING:
                     ongoing.recommendation = self._recommended(encounter)
                 told.append(self._alert(t_ns, ongoing))

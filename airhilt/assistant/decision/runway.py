@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -179,19 +179,20 @@ class RunwayWatch:
             is not None
         }
         before = ongoing.recommendations
-        changes = ongoing.escalation.changes(
+        news = ongoing.escalation.changes(
             t_ns,
-            is_other=any(before.get(name) != each for name, each in recommendations.items()),
-            is_ignored=any(
-                mobile is not None and before.get(name) == each and not _is_done(mobile, each)
+            other=[name for name, each in recommendations.items() if before.get(name) != each],
+            ignoring=[
+                name
                 for name, each in recommendations.items()
-                for mobile in (mobiles[name],)
-            ),
+                if (mobile := mobiles[name]) is not None and not _is_done(mobile, each)
+            ],
         )
-        if not has_risen and not is_renamed and not changes:
+        if not has_risen and not is_renamed and not news:
             return None
         ongoing.told, ongoing.recommendations = frozenset(threat.parties), recommendations
-        return self._alert(ongoing, recommendations)
+        crews = threat.parties if has_risen or is_renamed else news
+        return self._alert(ongoing, recommendations, crews)
 
     def _calm(self, t_ns: int, key: tuple[str, ...]) -> Alert | None:
         ongoing = self._ongoing[key]
@@ -201,7 +202,7 @@ class RunwayWatch:
         if was_told and not ongoing.escalation.is_over(t_ns, release_s):
             return None
         del self._ongoing[key]
-        return self._alert(ongoing, {}, active=False) if was_told else None
+        return self._alert(ongoing, {}, ongoing.threat.parties, active=False) if was_told else None
 
     def _ask(self, t_ns: int, situation: RunwaySituation) -> list[Alert]:
         """Return questions for what is in doubt about a runway that somebody else uses."""
@@ -218,12 +219,14 @@ class RunwayWatch:
         self,
         ongoing: _Ongoing,
         recommendations: dict[str, Recommendation],
+        told: Collection[str],
+        *,
         active: bool = True,
     ) -> Alert:
         """Return the alert about a threat; crews and drivers are told from CAUTION on."""
         threat, groups = ongoing.threat, self.config.recipients
         is_for_crews = "concerned" in groups and ongoing.escalation.is_for_crews
-        crews = threat.parties if is_for_crews else ()
+        crews = tuple(name for name in threat.parties if is_for_crews and name in told)
         recipients = (*crews, CONTROLLER) if "controller" in groups else crews
         return ongoing.escalation.alert(
             kind=threat.kind,

@@ -6,6 +6,7 @@ clearances. A conflict has one alert, which escalates.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from airhilt.assistant.decision.advice import Advice
@@ -159,34 +160,40 @@ class SeparationWatch:
             return self._calm(t_ns, conflict, prediction)
         escalation = conflict.escalation
         has_risen = escalation.rises(level, t_ns, self.config.persistence_s)
-        before, is_ignored = conflict.advice, False
+        before, ignoring = conflict.advice, frozenset[str]()
         is_open = before is None or not prediction.draws_apart
         if self._advises and escalation.is_for_crews and is_open:
-            is_ignored = self._advise(t_ns, conflict, prediction, anew=has_risen)
-        is_other = conflict.advice != before
-        changes = escalation.changes(t_ns, is_other=is_other, is_ignored=is_ignored)
-        return [self._alert(conflict, prediction, active=True)] if has_risen or changes else []
+            ignoring = self._advise(t_ns, conflict, prediction, anew=has_risen)
+        changed = zip(prediction.callsigns, before or (), conflict.advice or (), strict=False)
+        other = [name for name, old, new in changed if old.recommendation != new.recommendation]
+        news = escalation.changes(t_ns, other=other, ignoring=ignoring)
+        if has_risen:
+            return [self._alert(conflict, prediction)]
+        return [self._alert(conflict, prediction, news)] if news else []
 
     def _advise(
         self, t_ns: int, conflict: _Conflict, prediction: Prediction, *, anew: bool
-    ) -> bool:
-        """Judge the advice in force again, and return whether a crew does not do as told.
+    ) -> frozenset[str]:
+        """Judge the advice in force again, and return the crews that do not do as told.
 
-        It is kept while what both crews do of it keeps separation. It is replaced by what keeps
-        markedly more, and where the severity has risen by the best (``anew``).
+        It is kept while what both crews do of it keeps separation, and while they have time to
+        respond. It is replaced by what keeps markedly more, and where the severity has risen by the
+        best (``anew``).
         """
         tracks, before = (prediction.first, prediction.second), conflict.advice
         told, departs = None, (False, False)
+        ignoring = frozenset[str]()
         if before is not None:
             first, second = (
                 (track, *each.expected(track)) for track, each in zip(tracks, before, strict=True)
             )
-            one, other = (
-                each.adherence(track) == "departs"
-                for track, each in zip(tracks, before, strict=True)
-            )
-            if margin_of(first, second, self.config.infringed) >= 1.0:
-                return one or other
+            doing = [each.adherence(track) for track, each in zip(tracks, before, strict=True)]
+            one, other = (each == "departs" for each in doing)
+            named = zip(prediction.callsigns, doing, strict=True)
+            ignoring = frozenset(name for name, each in named if each == "departs")
+            is_waiting = "pending" in doing and not ignoring and not anew
+            if is_waiting or margin_of(first, second, self.config.infringed) >= 1.0:
+                return ignoring
             told, departs = (before[0].left(tracks[0]), before[1].left(tracks[1])), (one, other)
         resolution = resolve(
             *tracks,
@@ -204,7 +211,7 @@ class SeparationWatch:
                 Advice.of(resolution.first, one_flown, prediction.first, one_before),
                 Advice.of(resolution.second, other_flown, prediction.second, other_before),
             )
-        return any(departs)
+        return ignoring
 
     def _predict(self, t_ns: int, pair: Pair) -> Prediction:
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
@@ -231,12 +238,20 @@ class SeparationWatch:
         del self._conflicts[conflict.pair]
         return [self._alert(conflict, prediction, active=False)]
 
-    def _alert(self, conflict: _Conflict, prediction: Prediction, active: bool) -> Alert:
-        """Return the alert about a conflict; crews are told from CAUTION on."""
+    def _alert(
+        self,
+        conflict: _Conflict,
+        prediction: Prediction,
+        crews: Collection[str] | None = None,
+        *,
+        active: bool = True,
+    ) -> Alert:
+        """Return the alert about a conflict; crews are told from CAUTION on, all unless given."""
         escalation, callsigns = conflict.escalation, prediction.callsigns
+        told = tuple(name for name in callsigns if crews is None or name in crews)
         return escalation.alert(
             kind="loss_of_separation",
-            recipients=(*callsigns, CONTROLLER) if escalation.is_for_crews else (CONTROLLER,),
+            recipients=(*told, CONTROLLER) if escalation.is_for_crews else (CONTROLLER,),
             traffic=callsigns,
             evidence=prediction.evidence(),
             finding=LossOfSeparation(callsigns, prediction.time_to_loss_s),
