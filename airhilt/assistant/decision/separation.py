@@ -191,8 +191,8 @@ class SeparationWatch:
             one, other = (each == "departs" for each in doing)
             named = zip(prediction.callsigns, doing, strict=True)
             ignoring = frozenset(name for name, each in named if each == "departs")
-            is_waiting = "pending" in doing and not ignoring and not anew
-            if is_waiting or margin_of(first, second, self.config.infringed) >= 1.0:
+            is_fresh = conflict.escalation.is_fresh(t_ns) and not ignoring and not anew
+            if is_fresh or margin_of(first, second, self.config.infringed) >= 1.0:
                 return ignoring
             told, departs = (before[0].left(tracks[0]), before[1].left(tracks[1])), (one, other)
         resolution = resolve(
