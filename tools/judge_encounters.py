@@ -48,7 +48,7 @@ MANNERS: tuple[tuple[Manner, Manner], ...] = (
     ("follows", "ignores"),
     ("follows", "opposite"),
 )
-"""What the two crews do, in closed loop."""
+"""Manners of the two crews, in closed loop."""
 
 
 def main() -> None:

@@ -41,7 +41,7 @@ class AdvisoryRecord:
     losing: frozenset[str] = frozenset()
     """Callsigns of these that were then going to lose separation from another of them."""
     to_be_seen: frozenset[frozenset[str]] = frozenset()
-    """The pairs of which a conflict had begun then, or was to be seen."""
+    """Pairs with somebody of these of which a conflict had begun then, or was to be seen."""
     concerns_conflict: bool = False
     """True if a revision of it was about the annotated pair."""
     shown: frozenset[str] = frozenset()
@@ -92,8 +92,10 @@ class AdvisoryRecords:
         record.severity = max(record.severity, advisory.severity, key=lambda one: one.rank)
         record.traffic |= dict.fromkeys(self._traffic(advisory))
         record.losing |= self._losing(advisory)
-        everybody = combinations(sorted(set(self._callsigns.values())), 2)
-        record.to_be_seen |= {frozenset(pair) for pair in everybody if self._shows(pair)}
+        everybody = set(self._callsigns.values())
+        named = everybody.intersection(self._traffic(advisory))
+        pairs = ((one, other) for one in named for other in everybody - {one})
+        record.to_be_seen |= {frozenset(pair) for pair in pairs if self._shows(pair)}
         record.concerns_conflict |= self._concerns_conflict(advisory)
         record.shown |= self._shown(advisory)
         return True

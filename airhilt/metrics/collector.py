@@ -166,7 +166,8 @@ class Collector:
 
         It is in the tracks of two, or where they are on runways.
         """
-        if pair == self._scenario.pair and self.window.begun_ns is not None:
+        annotated = set(self._scenario.pair or ())
+        if annotated == set(pair) and self.window.begun_ns is not None:
             return True
         loss_s = self._monitor.time_to_loss_s(pair)
         if loss_s is not None and loss_s <= JUSTIFIED_WITHIN_S:

@@ -111,7 +111,7 @@ def test_what_is_typed_at_the_seat_of_a_tower_is_done_or_refused(
 def test_what_is_spoken_at_the_seat_of_a_tower_is_done_or_refused_or_asked_about(
     name: str, tmp_path: Path
 ) -> None:
-    """Who does not understand it after some sayings still asks, and does nothing of it."""
+    """A crew that does not understand it after some sayings still asks, and does nothing of it."""
     call = next(each for each in CALLS if each["id"] == name)
     file, out = scenario_file(call, tmp_path / "call.json", SPOKEN_FOR_S), tmp_path / "run"
     said = playing(microphone_file(tmp_path / "said.wav", call["text"]))

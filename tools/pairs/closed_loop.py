@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -17,29 +17,28 @@ from airhilt.messages import Climb, MaintainLevel, Recommendation, Turn
 from airhilt.scenario.models import Reactions
 from airhilt.scenario.models.responses import RESPONSE_MODELS, ResponseModelName
 from airhilt.surveillance.receivers import Receiver
+from airhilt.surveillance.tcas_resolution import ACCELERATION_M_S2
 from airhilt.surveillance.transponders import Transponder
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS, STANDARD_GRAVITY
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
+from airhilt.world.truth.conflicts import NMAC
 from pairs.flying import FRAME, NACP, NACV, State
 from pairs.geometry import Encounter, Path
 
 STEP_S = 0.1
 REPORT_STEPS = 5
 """Steps from one report to the next: two a second (RTCA DO-260B)."""
-VERTICAL_M_S2 = 0.25 * STANDARD_GRAVITY
-"""Vertical acceleration of the standard pilot of TCAS II (ICAO Annex 10, volume IV, 4.4.2.6)."""
 SPOKEN_S = 3.0
 """Time from an alert to the end of the words of its instruction, in s: that of the voice."""
-NMAC_M, NMAC_VERTICAL_M = 500.0 * FOOT, 100.0 * FOOT
-"""Near mid-air collision (RTCA DO-185B)."""
 
 Manner = Literal["follows", "ignores", "opposite"]
-"""What a crew does: what the assistant says, nothing, or what a controller orders against it."""
+"""Manner of a crew: it does as the assistant says, nothing, or what a controller orders against
+that."""
 
 
 @dataclass(frozen=True)
 class Flown:
-    """What became of an encounter.
+    """Outcome of an encounter.
 
     Attributes
     ----------
@@ -73,35 +72,27 @@ class _Aircraft:
     level: tuple[float, float] | None = None
     """Level to fly to, and the rate; None: as its path."""
     turns_to_rad: float | None = None
-    _pending: list[tuple[float, Recommendation]] = field(default_factory=list)
+    pending: tuple[float, Recommendation] | None = None
+    """Recommendation that is not begun, and its time in s."""
 
     def __post_init__(self) -> None:
         self.east_m, self.north_m = self.path.place_m(0.0)
         self.altitude_m, self.course_rad = self.path.altitude_m(0.0), self.path.course_rad
         self.rate_m_s = self.path.vertical_rate_m_s(0.0)
 
-    def told(self, due_s: float, recommendation: Recommendation) -> None:
-        """Do what is recommended at a time, in place of what was not begun."""
-        self._pending = [(due_s, recommendation)]
-
-    @property
-    def due_s(self) -> float | None:
-        """Time of what is not begun."""
-        return self._pending[0][0] if self._pending else None
-
     def advance(self, time_s: float) -> None:
         """Fly one step from a time."""
-        if self._pending and self._pending[0][0] <= time_s:
-            self._begin(self._pending.pop()[1])
+        if self.pending is not None and self.pending[0] <= time_s:
+            self._begin(self.pending[1])
+            self.pending = None
         if self.level is None:
-            wanted = self.path.vertical_rate_m_s(time_s)
-            self.rate_m_s = wanted
+            self.rate_m_s = self.path.vertical_rate_m_s(time_s)
         else:
             level_m, rate = self.level
             to_go = level_m - self.altitude_m
-            slowing = math.sqrt(2.0 * VERTICAL_M_S2 * abs(to_go))
+            slowing = math.sqrt(2.0 * ACCELERATION_M_S2 * abs(to_go))
             wanted = math.copysign(min(rate, slowing), to_go)
-            change = VERTICAL_M_S2 * STEP_S
+            change = ACCELERATION_M_S2 * STEP_S
             self.rate_m_s += min(max(wanted - self.rate_m_s, -change), change)
         self.altitude_m += self.rate_m_s * STEP_S
         speed = self.path.speed_m_s
@@ -171,7 +162,7 @@ def _flown(
         first, second = pair
         horizontal = math.hypot(first.east_m - second.east_m, first.north_m - second.north_m)
         vertical = abs(first.altitude_m - second.altitude_m)
-        least = min(least, max(horizontal / NMAC_M, vertical / NMAC_VERTICAL_M))
+        least = min(least, max(horizontal / NMAC.horizontal_m, vertical / NMAC.vertical_m))
         for aircraft in pair:
             aircraft.advance(time_s)
     return Flown(least < 1.0, least)
@@ -246,8 +237,9 @@ class _Loop:
         aircraft, manner, model = self._crews[callsign]
         if manner == "ignores":
             return
+        is_opposite = manner == "opposite" and isinstance(told, Climb)
         response = model.respond(
-            "assistant",
+            "controller" if is_opposite else "assistant",
             alert.id,
             revision=alert.revision,
             is_repeated=(callsign, alert.id) in self._following,
@@ -257,15 +249,8 @@ class _Loop:
             return
         self._following.add((callsign, alert.id))
         if isinstance(told, Climb):
-            told = response.flown(told, aircraft.altitude_m / FOOT)
-            if manner == "opposite":
-                told = _against(told, aircraft.altitude_m / FOOT)
+            flown = replace(response, kind="opposite") if is_opposite else response
+            told = flown.flown(told, aircraft.altitude_m / FOOT)
         due_s = time_s + SPOKEN_S + response.delay_s
-        aircraft.told(due_s if aircraft.due_s is None else max(due_s, aircraft.due_s), told)
-
-
-def _against(told: Climb, altitude_ft: float) -> Climb:
-    """Return the climb or descent that a controller orders against one that is recommended."""
-    away_ft = altitude_ft - (told.altitude_ft - altitude_ft)
-    sense = "descend" if told.sense == "climb" else "climb"
-    return told.model_copy(update={"sense": sense, "altitude_ft": away_ft})
+        earlier_s = -math.inf if aircraft.pending is None else aircraft.pending[0]
+        aircraft.pending = max(due_s, earlier_s), told

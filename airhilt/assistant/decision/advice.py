@@ -27,7 +27,7 @@ Adherence = Literal["pending", "follows", "departs"]
 
 
 class Advice(NamedTuple):
-    """What one crew was told, and how it flew then."""
+    """Advice that one crew was told, and how the crew flew then."""
 
     recommendation: Recommendation | None
     manoeuvre: Manoeuvre

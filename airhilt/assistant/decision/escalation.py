@@ -36,11 +36,6 @@ class Escalation:
         """True if crews and drivers are told of it: from a CAUTION on."""
         return self.severity is not None and self.severity.rank >= Severity.CAUTION.rank
 
-    @property
-    def has_alert(self) -> bool:
-        """True if an alert has been made."""
-        return self._revision > 0
-
     def rises(self, level: Severity, t_ns: int, persistence_s: float) -> bool:
         """Update with the present level, and return whether a higher severity is to be told.
 

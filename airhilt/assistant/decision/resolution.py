@@ -60,7 +60,7 @@ class Resolution:
     first: Recommendation | None
     second: Recommendation | None
     manoeuvres: Candidate
-    """What the two are to fly by these."""
+    """Manoeuvres that the two are to fly by these."""
     margin: float
     """Least distance in units of the minima; 1 or more keeps separation."""
 

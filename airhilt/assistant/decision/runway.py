@@ -46,7 +46,7 @@ class _Ongoing:
     told: frozenset[str] = frozenset()
     """Recipients that were told of it last, by the names that they had then."""
     recommendations: Mapping[str, Recommendation] = field(default_factory=dict)
-    """What each of them was told last, by the name that it had then."""
+    """Recommendations that were told last, by the names that their recipients had then."""
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""
     is_provisional: bool = True

@@ -47,7 +47,7 @@ class _Conflict:
     pair: Pair
     escalation: Escalation
     advice: tuple[Advice, Advice] | None = None
-    """What each of the two crews was told last; None before that."""
+    """Advice that the two crews were told last; None before that."""
 
 
 class SeparationWatch:

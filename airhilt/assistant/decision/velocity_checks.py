@@ -49,7 +49,7 @@ Report = TypeVar("Report", AdsbReport, SurfaceTrack)
 
 
 class _Point(NamedTuple):
-    """How far a target has come at a time; complex numbers are north and east."""
+    """Way of a target up to a time; complex numbers are north and east."""
 
     t_s: float
     velocity: complex
@@ -116,7 +116,7 @@ class _Motion:
 
 @dataclass
 class _Past:
-    """What is known of one target, as of its last report."""
+    """State of one target as of its last report."""
 
     t_ns: int
     place: Place

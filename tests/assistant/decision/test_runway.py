@@ -136,7 +136,7 @@ def test_an_occupied_runway_is_a_caution_at_60_s_and_a_warning_to_go_around_at_3
 
 
 def test_it_is_one_alert_in_plain_words_whose_severity_only_rises_and_that_ends() -> None:
-    """Who does not do as told is told again, once there was time to do it."""
+    """It is told again to those who do not do as told, once there was time to."""
     field = Airfield([arrival(100), vehicle(stands(800))]).run(150)
     for callsign, words in (
         ("AAL123", "AAL123 go around. OPS1 is on runway 01, "),

@@ -1,4 +1,4 @@
-"""What passes too near at an airport is never called avoided, whatever the two are doing."""
+"""Passes that are too near at an airport are never called avoided, whatever the two are doing."""
 
 from __future__ import annotations
 

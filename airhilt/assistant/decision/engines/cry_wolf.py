@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
+from airhilt.assistant.decision.resolution import TURN_DEG
 from airhilt.engines import Engine
 from airhilt.errors import AirhiltError
 from airhilt.messages import (
@@ -21,8 +22,6 @@ from airhilt.messages import (
     Turn,
 )
 from airhilt.units import seconds_to_ns
-
-TURN_DEG = 30.0
 
 
 class CryWolfEngine:
