@@ -118,6 +118,10 @@ class Options(BaseModel):
     seed: Annotated[
         int, Flag("--seed", "Seed of perturbations, sensors, crews and turbulence.")
     ] = 0
+    twin: Annotated[
+        bool,
+        Flag("--twin", "Run the scenario's nominal twin: the same traffic without its conflict."),
+    ] = False
     out: Annotated[
         Path | None,
         Flag("--out", "The run folder.", "DIR", default="a new one under runs/", in_sweeps=False),

@@ -13,6 +13,7 @@ from airhilt.errors import AirhiltError, WorkerError, shown
 from airhilt.messages import InputSpec
 from airhilt.options import MODALITIES, Options, flag_of
 from airhilt.scenario import Scenario
+from airhilt.scenario.twin import twin_of
 
 KEYS: Mapping[str, tuple[str, ...]] = {
     "adsb": ("adsb",),
@@ -43,6 +44,8 @@ def check_options(options: Options, scenario: Scenario) -> None:
         for other in _against(options, name, flag.needs):
             given = flag.name if isinstance(value, bool) else f"{flag.name} {shown(value)}"
             raise AirhiltError(f"{given} would do nothing {other}")
+    if options.twin:
+        twin_of(scenario)
     if options.tls is not None and options.share_truth:
         raise AirhiltError(
             "--share-truth would do nothing with --tls: who has the certificate of a recorder "

@@ -17,6 +17,7 @@ from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.seats import seats_of
+from airhilt.scenario.twin import twin_of
 from airhilt.sensors.base import load_sensor_types
 from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.backends.selection import select_backend
@@ -58,7 +59,7 @@ class Setup:
         if not recorded.is_replay:
             check_options(options, given)
         self.given, self.options, self.recorded = given, options, recorded
-        drawn, self.draws = draw(given, options.seed)
+        drawn, self.draws = draw(twin_of(given) if options.twin else given, options.seed)
         self.scenario = scenario = requested_scenario(options, drawn)
         self.latency = recorded.latency or _requested_latency(given, options)
         self.pace = parse_pace(options.pace or "virtual")

@@ -118,7 +118,6 @@ class Collector:
         match message:
             case ConflictTruth(phase="begun", t_ns=now_ns):
                 self.window.begun_ns = now_ns
-                self._first_warning.begin()
             case ConflictTruth(phase="opened", t_ns=now_ns):
                 self.window.opened_ns = now_ns
             case ConflictTruth(phase="closed", t_ns=now_ns):
@@ -155,8 +154,6 @@ class Collector:
             self._latencies.add("decision", advisory.t_ready_ns, advisory.t_ns)
         if advisory.active:
             self.last_advisory = advisory
-        else:
-            self._first_warning.withdrawn(advisory.id)
         if self._advisories.warns_of_conflict(advisory):
             is_voiced = self.modalities.get("tts") == "on" or self._is_called(advisory.recipient)
             self._first_warning.warned(advisory, is_voiced)
@@ -285,8 +282,8 @@ class Collector:
     def _outcome_fields(self) -> dict[str, Any]:
         outcome, truth = self._outcome, self._outcome.pair_truth
         # A warning counts that came before equipment told anybody what to do.
-        warning_ns = self._first_warning.t_ns
-        is_warned = self._is_warned_in_time() and not self._equipment.acts_before(warning_ns)
+        was_warned = self._is_warned_in_time()
+        is_credited = was_warned and not self._equipment.acts_before(self._first_warning.t_ns)
         return {
             "min_horizontal_separation_m": truth.least_horizontal_m if truth else None,
             "min_vertical_separation_m": truth.least_vertical_m if truth else None,
@@ -294,7 +291,10 @@ class Collector:
             **{phase: outcome.happened(phase) for phase in INFRINGEMENTS},
             "runway_incursions": outcome.incursions(),
             "runway_incursion_category": outcome.worst_category(),
-            "avoided": outcome.avoided(was_warned=is_warned),
+            "avoided": outcome.avoided(was_warned=is_credited),
+            "conflict_outcome": outcome.conflict(
+                was_warned, self.window.opened_ns is not None, is_credited
+            ),
         }
 
 

@@ -47,10 +47,8 @@ def _warned_in_time(summary: Json) -> bool | None:
 
 
 def _missed(summary: Json) -> bool | None:
-    was_warned = _warned(summary)
-    if was_warned is False and summary.get("t_window_s") is None:
-        return None
-    return None if was_warned is None else not was_warned
+    outcome = summary.get("conflict_outcome")
+    return None if outcome is None or _nominal(summary) else outcome == "missed"
 
 
 def _lost(summary: Json) -> bool:
@@ -124,8 +122,8 @@ DERIVED = (
     Derived(
         "missed",
         "bool",
-        "the conflict window opened, and nobody was warned before it closed; null if it did not "
-        "open and nobody was warned",
+        "nobody was warned before the conflict window closed, and it opened or the pair came to "
+        "harm; null if the scenario declares no conflict",
         _missed,
     ),
     Derived(

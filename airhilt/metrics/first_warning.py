@@ -18,10 +18,7 @@ class _Warning(NamedTuple):
 
 
 class FirstWarning:
-    """The first warning: when it was heard or, where no voice speaks, read.
-
-    A warning that is withdrawn before the conflict begins is none of it.
-    """
+    """The first warning: when it was heard or, where no voice speaks, read."""
 
     def __init__(
         self, pair: Pair | None, monitor: ConflictMonitor, plans: Plans, ground_m: float
@@ -30,11 +27,9 @@ class FirstWarning:
         self._monitor = monitor
         self._plans = plans
         self._ground_m = ground_m
-        self._has_begun = False
         self._unspoken: dict[tuple[str, str, int], Advisory] = {}
         """Warnings that wait for their audio, by id, recipient and revision."""
-        self._warnings: dict[str, _Warning] = {}
-        """First warning of each conflict of the assistant, by id, in their order."""
+        self._first: _Warning | None = None
 
     @property
     def t_ns(self) -> int | None:
@@ -45,22 +40,6 @@ class FirstWarning:
     def advisory(self) -> Advisory | None:
         """The first warning as it was published, None before it was heard or read."""
         return self._first and self._first.advisory
-
-    @property
-    def _first(self) -> _Warning | None:
-        return next(iter(self._warnings.values()), None)
-
-    def begin(self) -> None:
-        """Record that the conflict begins: what is in force now, or comes, is a warning of it."""
-        self._has_begun = True
-
-    def withdrawn(self, advisory_id: str) -> None:
-        """Record that an advisory is not active any more."""
-        if not self._has_begun:
-            self._warnings.pop(advisory_id, None)
-            self._unspoken = {
-                name: each for name, each in self._unspoken.items() if each.id != advisory_id
-            }
 
     def warned(self, advisory: Advisory, is_spoken: bool) -> None:
         """Record an advisory that warns of the conflict; if it is spoken, its audio counts."""
@@ -96,8 +75,8 @@ class FirstWarning:
         return projection.traffic_s if alert == "tcas_ta" else projection.resolution_s
 
     def _add(self, advisory: Advisory, now_ns: int) -> None:
-        if advisory.id not in self._warnings and not (self._has_begun and self._warnings):
-            self._warnings[advisory.id] = _Warning(now_ns, advisory, self._projection(now_ns))
+        if self._first is None:
+            self._first = _Warning(now_ns, advisory, self._projection(now_ns))
 
     def _projection(self, now_ns: int) -> tcas.Projection | None:
         """Return when TCAS II would speak if both went on as the script plans, None if never."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from airhilt.metrics.summary import ClosestApproach, RunwayIncursion
+from airhilt.metrics.summary import ClosestApproach, ConflictOutcome, RunwayIncursion
 from airhilt.scenario.models import UnassistedOutcome
 from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair, PairTruth
@@ -100,6 +100,25 @@ class Outcome:
         if self._pair_in_serious_incursion():
             return False
         return True if was_warned else None
+
+    def conflict(self, was_warned: bool, has_opened: bool, is_credited: bool) -> ConflictOutcome:
+        """Return what became of the annotated conflict.
+
+        Parameters
+        ----------
+        was_warned
+            Somebody was warned of it before its window closed.
+        has_opened
+            Its window opened.
+        is_credited
+            That warning came before equipment told anybody what to do.
+        """
+        avoided = self.avoided(was_warned=is_credited)
+        if avoided:
+            return "avoided"
+        if avoided is False:
+            return "lost" if was_warned or self._pair is None else "missed"
+        return "missed" if has_opened and not was_warned else "no_conflict"
 
     def _pair_in_serious_incursion(self) -> bool:
         pair = set(self._pair or ())

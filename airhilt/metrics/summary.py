@@ -11,6 +11,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from airhilt.messages import ModalityState, NasaTlx, Severity
 from airhilt.world.truth.runways import IncursionCategory
 
+ConflictOutcome = Literal["avoided", "lost", "missed", "no_conflict"]
+
 
 class _Part(BaseModel):
     model_config = ConfigDict(frozen=True)
@@ -484,6 +486,12 @@ class Summary(_Part):
         description="somebody was warned of the annotated conflict, and the pair neither lost "
         "separation, nor came to an NMAC or an incursion of category A or B, nor collided; null "
         "if nobody was warned, or equipment of the world acted first, and nothing of that happened"
+    )
+    conflict_outcome: ConflictOutcome = Field(
+        default="no_conflict",
+        description="what became of the annotated conflict: avoided, as above; lost: it came to "
+        "harm all the same, or any two did where none is annotated; missed: nobody was warned, and "
+        "its window opened or it came to harm; no_conflict: none of these",
     )
     unassisted_as_declared: bool | None = Field(
         default=None,

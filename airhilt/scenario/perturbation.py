@@ -97,7 +97,8 @@ def _sample(perturbation: Perturbation, seed: int) -> float:
 def realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
     """Return the scenario with its perturbations drawn, and the draws.
 
-    The realised scenario declares no perturbations, so realising it again changes nothing.
+    The realised scenario declares no perturbations, so realising it again changes nothing; nor does
+    it have a twin, which draws its own.
 
     Raises
     ------
@@ -111,5 +112,5 @@ def realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
         nominal = float(container[key])
         container[key] = nominal + _sample(perturbation, seed)
         draws.append(Draw(path=perturbation.path, nominal=nominal, realised=container[key]))
-    document["perturbations"] = []
+    document |= {"perturbations": [], "nominal_twin": None}
     return Scenario.model_validate(document), draws

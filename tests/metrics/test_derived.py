@@ -28,26 +28,26 @@ def test_a_run_is_nominal_if_its_scenario_declares_no_conflict() -> None:
 
 
 WARNINGS = [
-    # first warning, begin and end of the window, lead: warned, in time, missed
-    (30.0, 40.0, 60.0, 20.0, True, True, False),
-    (40.0, 30.0, 60.0, 12.5, True, True, False),
-    (40.0, 30.0, 60.0, 12.4, True, False, False),
-    (60.0, 30.0, 60.0, -5.0, True, False, False),
-    (60.1, 30.0, 60.0, -5.1, False, False, True),
-    (None, 30.0, 60.0, None, False, False, True),
-    (40.0, 30.0, None, 20.0, True, True, False),
-    (40.0, 30.0, None, None, True, False, False),
-    (40.0, None, None, None, True, True, False),
-    (None, None, None, None, False, False, None),
+    # first warning, begin and end of the window, lead: warned, in time
+    (30.0, 40.0, 60.0, 20.0, True, True),
+    (40.0, 30.0, 60.0, 12.5, True, True),
+    (40.0, 30.0, 60.0, 12.4, True, False),
+    (60.0, 30.0, 60.0, -5.0, True, False),
+    (60.1, 30.0, 60.0, -5.1, False, False),
+    (None, 30.0, 60.0, None, False, False),
+    (40.0, 30.0, None, 20.0, True, True),
+    (40.0, 30.0, None, None, True, False),
+    (40.0, None, None, None, True, True),
+    (None, None, None, None, False, False),
 ]
 """12.5 s is the time to act of FAA AC 90-48D."""
 
 
-@pytest.mark.parametrize(("told_s", "begin_s", "end_s", "lead_s", "warned", "in_time", "missed"),
+@pytest.mark.parametrize(("told_s", "begin_s", "end_s", "lead_s", "warned", "in_time"),
                          WARNINGS)  # fmt: skip
 def test_a_conflict_is_warned_of_before_its_window_closes_and_in_time_12_5_s_before_it_is_closest(
     told_s: float | None, begin_s: float | None, end_s: float | None, lead_s: float | None,
-    warned: bool, in_time: bool, missed: bool | None,
+    warned: bool, in_time: bool,
 ) -> None:  # fmt: skip
     given = {
         "t_first_warning_s": told_s, "t_window_s": begin_s, "t_conflict_end_s": end_s,
@@ -55,8 +55,7 @@ def test_a_conflict_is_warned_of_before_its_window_closes_and_in_time_12_5_s_bef
     }  # fmt: skip
     assert conflict("warned", **given) is warned
     assert conflict("warned_in_time", **given) is in_time
-    assert conflict("missed", **given) is missed
-    for name in ("warned", "warned_in_time", "missed"):
+    for name in ("warned", "warned_in_time"):
         assert of(name, conflict_actors=[], **given) is None
         assert of(name, **given) is None
 

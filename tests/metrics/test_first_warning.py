@@ -40,25 +40,6 @@ def test_the_first_of_several_counts_and_of_one_its_first_revision() -> None:
     assert at_s(first) == 10.0
 
 
-def test_what_is_withdrawn_before_the_conflict_begins_is_no_warning_of_it() -> None:
-    first = first_of_none()
-    first.warned(warning("a", 10.0), is_spoken=False)
-    first.warned(warning("b", 11.0), is_spoken=True)
-    first.withdrawn("a")
-    first.withdrawn("b")
-    first.heard(("b", "AAL1", 0), 12 * SECOND_NS)
-    assert first.advisory is None
-
-
-def test_what_is_withdrawn_after_that_was_one() -> None:
-    first = first_of_none()
-    first.warned(warning("a", 10.0), is_spoken=False)
-    first.begin()
-    first.withdrawn("a")
-    first.warned(warning("b", 11.0), is_spoken=False)
-    assert at_s(first) == 10.0
-
-
 def test_where_the_voice_is_lost_what_waits_for_it_is_read() -> None:
     first = first_of_none()
     first.warned(warning("a", 10.0), is_spoken=True)

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from airhilt.cli.progress import print_summary
 from airhilt.commands import AltitudeCommand
@@ -23,6 +26,7 @@ from airhilt.messages import (
     Transmission,
 )
 from airhilt.metrics.collector import Collector
+from airhilt.metrics.derived import DERIVED
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary
 from airhilt.phraseology.say import speak_callsign
@@ -35,10 +39,12 @@ from airhilt.sim import StepRecord
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.loading import load
+from airhilt.world.truth.conflicts import PairTruth
 from straight import Straight, Watch
 
 SCENARIO = load("s02a_headon")
 FIRST, SECOND = (actor.callsign for actor in SCENARIO.actors[:2])
+PHASES = ("loss_of_separation", "nmac", "collision")
 RUN = {"seed": 1, "assistant": "reference", "outcome": "finished", "inputs_dropped": {},
        "real_time_factor": 1.0, "cpu_s": 1.0}  # fmt: skip
 
@@ -155,6 +161,41 @@ def test_who_is_warned_after_the_conflict_window_has_not_avoided_the_conflict() 
     assert summary.t_first_warning_s == 3.0
     assert summary.lead_before_closest_approach_s is None
     assert summary.avoided is None
+
+
+TIMES = st.none() | st.integers(0, 90)
+
+
+@settings(max_examples=3000, deadline=None)
+@given(warned_s=TIMES, opens_s=TIMES, lasts_s=TIMES, harm=st.sets(st.sampled_from(PHASES)))
+def test_avoided_lost_missed_and_no_conflict_exclude_each_other_and_cover_all(
+    warned_s: int | None, opens_s: int | None, lasts_s: int | None, harm: set[Any]
+) -> None:
+    truth = PairTruth(first_ns=dict.fromkeys(harm, 1))
+    monitor = SimpleNamespace(
+        pairs={(FIRST, SECOND): truth}, time_to_loss_s=lambda _: 60.0, flying=lambda _: False
+    )
+    collector = Collector(SCENARIO, 0.0, cast(Any, monitor), None, Plans([], {}, {}))
+    messages: list[ConflictTruth | Advisory] = []
+    if opens_s is not None:
+        messages.append(conflict(opens_s, "opened"))
+        messages += [] if lasts_s is None else [conflict(opens_s + lasts_s, "closed")]
+    if warned_s is not None:
+        messages.append(advisory(warned_s))
+    for message in sorted(messages, key=lambda one: one.t_ns):
+        collector.take("", message, b"")
+    summary = collector.summary(RUN, 181 * SECOND_NS)
+    row = {each.name: each.value(summary.model_dump()) for each in DERIVED}
+    has_opened = opens_s is not None
+    expected = {
+        "avoided": row["warned"] and not harm,
+        "lost": row["warned"] and bool(harm),
+        "missed": not row["warned"] and (bool(harm) or has_opened),
+        "no_conflict": not row["warned"] and not harm and not has_opened,
+    }
+    assert [name for name, holds in expected.items() if holds] == [summary.conflict_outcome]
+    assert (summary.avoided is True) is (summary.conflict_outcome == "avoided")
+    assert row["missed"] is (summary.conflict_outcome == "missed")
 
 
 def unassisted(followed: FollowedRun, assistant: str = "none") -> bool | None:

@@ -95,7 +95,8 @@ def test_what_is_declared_is_drawn_once_and_nothing_else_is_changed(
                 container, key = locate(document, draw.path)
                 assert container[key] == draw.realised
                 container[key] = draw.nominal
-            document["perturbations"] = scenario.model_dump(mode="json")["perturbations"]
+            given = scenario.model_dump(mode="json")
+            document |= {name: given[name] for name in ("perturbations", "nominal_twin")}
             assert Scenario.model_validate(document) == scenario
 
 

@@ -165,6 +165,13 @@ class Scenario(Model):
     conflict: Conflict | None = Field(
         default=None, description="null: nominal scenario, in which every CAUTION is a nuisance"
     )
+    nominal_twin: dict[str, JsonValue] | None = Field(
+        default=None,
+        max_length=50,
+        description="values by path (as in ``perturbations``) that, with the failures left out, "
+        "make of a scenario with a conflict the same traffic without one; null: it has no twin",
+        examples=[{"actors/DAL456/initial/altitude_ft": 36000}],
+    )
     end_when: tuple[Condition, ...] = Field(
         default=(), max_length=20, description="the run ends when one is true"
     )

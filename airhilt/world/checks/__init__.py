@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from airhilt.errors import ScenarioError
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.problems import Problem, error_for
+from airhilt.scenario.twin import twin_of
 from airhilt.world.checks.actors import (
     altitudes_below_ground,
     misdirected_commands,
@@ -91,3 +92,20 @@ def _problems(scenario: Scenario) -> Iterator[Problem]:
         yield from unknown_taxiways(scenario, site.layout)
     yield from idle_failures(scenario)
     yield from misplaced_perturbations(scenario)
+    yield from _problems_of_twin(scenario)
+
+
+def _problems_of_twin(scenario: Scenario) -> Iterator[Problem]:
+    """Yield what is wrong with the nominal twin, if there is one."""
+    if scenario.nominal_twin is None:
+        return
+    if scenario.conflict is None:
+        yield Problem("nominal_twin", "the scenario is nominal itself; expected null")
+        return
+    try:
+        twin = twin_of(scenario)
+    except ScenarioError as error:
+        yield Problem("nominal_twin", str(error))
+        return
+    for problem in _problems(twin):
+        yield Problem("nominal_twin", f"in the twin, {problem}")
