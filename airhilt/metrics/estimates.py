@@ -139,6 +139,30 @@ def rate_of(
     return Estimate(rate, low, high, events.size)
 
 
+def of_clusters(sums: Array, statistic: Callable[[Array], Array], n: int) -> Estimate:
+    """Return a statistic of sums over clusters, with the interval of a bootstrap over these.
+
+    Parameters
+    ----------
+    sums
+        Of each cluster (row) the sums that the statistic is made of (columns).
+    statistic
+        Returns its value from the sums over all clusters, in the last axis.
+    n
+        Number of runs.
+    """
+    if not n:
+        return UNKNOWN
+    value = float(statistic(sums.sum(axis=0)))
+    if len(sums) < FEWEST_RESAMPLED or math.isnan(value):
+        return Estimate(value, None, None, n)
+    random = np.random.default_rng(SEED)
+    drawn = random.multinomial(len(sums), np.full(len(sums), 1.0 / len(sums)), RESAMPLES)
+    tails = (1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0
+    low, high = np.nanquantile(statistic(drawn @ sums), tails)
+    return Estimate(value, float(low), float(high), n)
+
+
 def _interval_of_ratio(above: Array, below: Array) -> tuple[float, float]:
     """Return the interval of the ratio of two sums, by a bootstrap over their parts."""
     random = np.random.default_rng(SEED)

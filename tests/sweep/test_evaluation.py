@@ -16,10 +16,12 @@ from airhilt.record.sweep_folder import SweepFolder
 from airhilt.scenario import Scenario
 from airhilt.sweep.axes import listed
 from airhilt.sweep.engine import SweepObserver, SweepResult
+from airhilt.sweep.evaluation import ranking
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.presets import full, paper, recipients
+from airhilt.sweep.evaluation.ranking import Tried, youden_index
 from airhilt.sweep.evaluation.scores import (
     Baselines,
     avoided,
@@ -102,11 +104,67 @@ def test_severity_is_judged_by_the_advisories_that_a_loss_followed() -> None:
     assert (found.value, found.n) == (pytest.approx(2 / 3), 3)
 
 
+# --- the ranking ----------------------------------------------------------------------------
+
+MANY = [f"s01a_{number}" for number in range(8)]
+
+
+def tried(*, lost: int = 0, disturbed: int = 0, brought_about: int = 0) -> Tried:
+    """Return runs with 6 conflicts that are lost without an assistant, 2 others, and 8 twins."""
+    harmed = {*MANY[:lost], *MANY[6 : 6 + brought_about]}
+    twins = {*MANY[:disturbed]}
+    return Tried(
+        [row(name, lost=name in harmed) for name in MANY],
+        [row(name, nominal=True, nuisance_alerts=2 * (name in twins)) for name in MANY],
+    )
+
+
+NOBODY = [row(name, lost=name in MANY[:6]) for name in MANY]
+
+
+def test_the_index_is_one_for_all_averted_and_nobody_disturbed() -> None:
+    assert youden_index(tried(), NOBODY).value == 1.0
+
+
+def test_who_says_nothing_has_an_index_of_0_and_who_warns_of_everything_at_most_that() -> None:
+    assert youden_index(tried(lost=6), NOBODY).value == 0.0
+    assert youden_index(tried(disturbed=8), NOBODY).value == 0.0
+    assert youden_index(tried(lost=2, disturbed=8), NOBODY).value == pytest.approx(-1 / 3)
+
+
+def test_what_an_assistant_brings_about_is_taken_from_what_it_averts() -> None:
+    found = youden_index(tried(lost=1, brought_about=2), NOBODY)
+    assert found.value == pytest.approx((5 - 2) / 6)
+    assert found.low is not None
+    assert found.low < found.value < found.high
+
+
+def test_harm_in_a_twin_disturbs_it_though_nobody_was_alerted() -> None:
+    harmed = Tried(tried().conflicts, [row(name, nominal=True, lost=True) for name in MANY])
+    assert youden_index(harmed, NOBODY).value == 0.0
+
+
+def test_the_highest_index_stands_first_in_the_ranking() -> None:
+    table = ranking.table({"silent": tried(lost=6), "good": tried(disturbed=1)}, NOBODY)
+    assert [line[0] for line in table.rows] == ["good", "silent"]
+    found = cells(table, "good")
+    assert text(found["averted"]).startswith("6 of 6")
+    assert text(found["brought about"]).startswith("0 of 2")
+    assert text(found["twins undisturbed"]).startswith("7 of 8")
+
+
+def test_the_controls_are_in_every_preset() -> None:
+    for preset in (paper, full, recipients):
+        names = preset.specifications(NO_CAMERAS).keys()
+        assert {"silent", "cry_wolf", "twins_silent", "twins_cry_wolf"} <= names
+
+
 # --- the paper ------------------------------------------------------------------------------
 
 
 def paper_tables(rows: Sequence[Row], choice: Choice = NO_CAMERAS) -> dict[str, Table]:
-    return {table.name: table for table in paper.tables(Results(choice, {"s01a": rows}))}
+    results = Results(choice, {"none": [], "paper": rows})
+    return {table.name: table for table in paper.tables(results)}
 
 
 def test_the_paper_has_its_numbers_beside_ours() -> None:
@@ -232,25 +290,31 @@ def test_who_is_told_is_compared_over_the_same_runs_with_each_response_model() -
     told = {
         name: listed(one.axes["recipients"])
         for name, one in every.items()
-        if not name.endswith("nobody")
+        if "recipients" in one.axes
     }
-    assert told == dict.fromkeys(("without_cameras", "with_cameras"), recipients.TOLD)
-    assert {listed(one.axes["crews"]) for one in every.values()} == {("ideal", "icao", "observed")}
+    with_twins = ("without_cameras", "with_cameras", "twins_reference")
+    assert told == dict.fromkeys(with_twins, recipients.TOLD)
+    assert {listed(one.axes["crews"]) for one in every.values() if "crews" in one.axes} == {
+        ("ideal", "icao", "observed")
+    }
     assert len(listed(every["without_cameras"].seeds)) == 20
     assert len(listed(every["with_cameras"].seeds)) == 3
     assert every["without_cameras"].options["cameras"] is False
-    assert recipients.specifications(NO_CAMERAS).keys() == {
-        "without_cameras", "without_cameras_nobody",
-    }  # fmt: skip
+    assert not any(name.startswith("with_") for name in recipients.specifications(NO_CAMERAS))
 
     lost: dict[str, Any] = {"avoided": False, "lost": True, "collision": True}
-    nobody = [row(crews="ideal", **lost), row(crews="observed")]
+    nobody = [row(crews="ideal", **lost), row(crews="observed"), row(crews="icao", **lost)]
     rows = [
         row(recipients="both", crews="ideal"),
         row(recipients="crew", crews="ideal", **lost),
         row(recipients="crew", crews="observed"),
+        row(recipients="crew", crews="icao"),
     ]
-    results = Results(NO_CAMERAS, {"without_cameras": rows, "without_cameras_nobody": nobody})
+    twins = [row(recipients=told, nominal=True) for told in recipients.TOLD]
+    sweeps = {
+        "without_cameras": rows, "without_cameras_nobody": nobody, "twins_reference": twins,
+    }  # fmt: skip
+    results = Results(NO_CAMERAS, sweeps)
     tables = {table.name: table for table in recipients.tables(results)}
     families = tables["recipients"]
     assert text(cells(families, "all", "both", "ideal")["avoided"]).startswith("1 of 1")
@@ -263,13 +327,17 @@ def test_who_is_told_is_compared_over_the_same_runs_with_each_response_model() -
         "avoided 1",
     )
     assert tables["harms_observed"].rows == ()
+    assert cells(tables["ranking"], "reference, crew told")["index"].value == 1.0
 
 
 def test_one_response_model_alone_is_compared_if_it_is_chosen() -> None:
     every = recipients.specifications(Choice(1, {"crews": "observed"}))
-    assert {listed(one.axes["crews"]) for one in every.values()} == {("observed",)}
+    swept = {listed(one.axes["crews"]) for one in every.values() if "crews" in one.axes}
+    assert swept == {("observed",)}
+    assert every["cry_wolf"].options["crews"] == "observed"
     results = Results(Choice(1, {"crews": "observed"}), {name: [] for name in every})
-    assert {table.name for table in recipients.tables(results)} == {"recipients", "harms_observed"}
+    tables = {table.name for table in recipients.tables(results)}
+    assert tables == {"recipients", "ranking", "harms_observed"}
 
 
 def test_severity_modalities_topologies_and_crews_have_tables() -> None:

@@ -18,6 +18,7 @@ Equipped = Literal["any", "transponder", "adsb"]
 """Equipment that both of the annotated pair must have."""
 ALL = "+".join(MODALITIES)
 SURVEILLANCE = "adsb"
+CALLS = "asr"
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,11 @@ ASSISTANTS = (
     Assistant("runway_status_lights", "s01*", modalities=SURVEILLANCE),
 )
 """Assistants that are compared, in the order of the tables."""
+CONTROLS = (
+    Assistant("silent", modalities=CALLS),
+    Assistant("cry_wolf", modalities=CALLS),
+)
+"""Negative controls: who says nothing, and who warns of everything."""
 
 
 @cache

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 
 from airhilt.engine_families import NONE
-from airhilt.sweep.evaluation import scores
+from airhilt.sweep.evaluation import ranking, scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, REFERENCE, shipped_scenarios
 from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
@@ -39,17 +39,11 @@ MARGINS = ("over TCAS TA, s", "over TCAS RA, s", "over well clear, s")
 
 
 def specifications(choice: Choice) -> Mapping[str, Specification]:
-    """Return a sweep for each assistant, and those of ablation and topologies."""
+    """Return the sweeps of the ranking, and those of ablation and topologies."""
     scenarios = shipped_scenarios()
-    settled = {"latency": "fixed"}
-    nobody = {**settled, "assistant": NONE}
-    found = {NONE: choice.specification(list(scenarios), nobody)}
-    for each in ASSISTANTS:
-        own = [name for name, one in scenarios.items() if each.applies_to(one)]
-        options = {**settled, "assistant": each.name, "modalities": each.modalities}
-        found[each.name] = choice.specification(own, options)
-    reference = {**settled, "assistant": REFERENCE.name}
     names = list(scenarios)
+    found = ranking.sweeps(choice, ASSISTANTS, names, {"latency": "fixed"})
+    reference = {"latency": "fixed", "assistant": REFERENCE.name}
     given = [each for each in _given(choice) if each != "vision"]
     found[MODALITIES] = choice.specification(names, reference, {"modalities": given})
     if choice.has_cameras:
@@ -68,7 +62,7 @@ def _given(choice: Choice) -> Mapping[str, str]:
 
 
 def tables(results: Results) -> Sequence[Table]:
-    """Return the tables: families, harms, severities, modalities, topologies, crews."""
+    """Return the tables: ranking, families, harms, severities, modalities, topologies, crews."""
     rows = results.rows
     baselines = Baselines.of(rows[NONE], rows["well_clear"])
     makers = [_families, _harms, _severities, _modalities]
@@ -76,7 +70,8 @@ def tables(results: Results) -> Sequence[Table]:
         makers.append(_topologies)
     if CREWS in rows:
         makers.append(_crews)
-    return tuple(make(results, baselines) for make in makers)
+    ranked = ranking.table(ranking.tried(rows), rows[NONE])
+    return ranked, *(make(results, baselines) for make in makers)
 
 
 def _families(results: Results, baselines: Baselines) -> Table:

@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from airhilt.cosim.latency_presets import ASR_S, TTS_S, VISION_S
+from airhilt.engine_families import NONE
 from airhilt.metrics.estimates import median_of
-from airhilt.sweep.evaluation.assistants import shipped_scenarios
+from airhilt.sweep.evaluation import ranking
+from airhilt.sweep.evaluation.assistants import Assistant, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import known, mean, share
 from airhilt.sweep.evaluation.tables import NOTHING, Cell, Table, number
@@ -18,7 +20,7 @@ from airhilt.sweep.evaluation.tables import share as share_cell
 from airhilt.sweep.specification import Specification
 
 FAMILY = "S01A"
-SWEEP = "s01a"
+PAPER = Assistant("paper")
 TIME_TO_FIRST_WARNING_S = 7.66
 """Mean time to first warning of the paper, in s."""
 FIRST_DETECTION_M = 125.0
@@ -29,9 +31,8 @@ PARTS = ("speech", "recognition", "evidence", "decision", "voice")
 
 
 def specifications(choice: Choice) -> Mapping[str, Specification]:
-    """Return the one sweep: all variants that have a conflict."""
-    settled = {"assistant": "paper", "latency": "paper"}
-    return {SWEEP: choice.specification(variants(), settled)}
+    """Return the sweeps of the ranking of the paper's assistant: all variants with a conflict."""
+    return ranking.sweeps(choice, [PAPER], variants(), {"latency": "paper"})
 
 
 def variants() -> list[str]:
@@ -41,9 +42,10 @@ def variants() -> list[str]:
 
 
 def tables(results: Results) -> Sequence[Table]:
-    """Return the comparison with the paper, and the times of each variant."""
-    rows = results.rows[SWEEP]
-    return _comparison(rows, results.choice), _variants(rows)
+    """Return the comparison with the paper, the times of each variant, and the ranking."""
+    rows = results.rows[PAPER.name]
+    ranked = ranking.table(ranking.tried(results.rows), results.rows[NONE])
+    return _comparison(rows, results.choice), _variants(rows), ranked
 
 
 def _comparison(rows: Sequence[Row], choice: Choice) -> Table:

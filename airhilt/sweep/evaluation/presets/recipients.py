@@ -14,8 +14,8 @@ from pydantic import JsonValue
 
 from airhilt.engine_families import NONE
 from airhilt.scenario.models.responses import ResponseModelName
-from airhilt.sweep.evaluation import scores
-from airhilt.sweep.evaluation.assistants import REFERENCE, shipped_scenarios
+from airhilt.sweep.evaluation import ranking, scores
+from airhilt.sweep.evaluation.assistants import CONTROLS, REFERENCE, shipped_scenarios
 from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
@@ -33,6 +33,7 @@ TOLD = ("crew", "controller", "both")
 CREWS = "crews"
 MODELS: tuple[str, ...] = get_args(ResponseModelName)
 """Response models: the values of the option ``crews``."""
+DEFAULT_MODEL: ResponseModelName = "icao"
 EVERYTHING = "all"
 """Name of the rows over all families."""
 NOBODY = "nobody"
@@ -44,7 +45,7 @@ def specifications(choice: Choice) -> Mapping[str, Specification]:
     families = {name: one.family for name, one in shipped_scenarios().items()}
     seen = [name for name, family in families.items() if family in NEED_CAMERAS]
     others = [name for name, family in families.items() if family not in NEED_CAMERAS]
-    found = _sweeps(choice, WITHOUT_CAMERAS, others, {"cameras": False})
+    found = _sweeps(choice, WITHOUT_CAMERAS, others, {"cameras": False}) | _ranked(choice, others)
     if choice.has_cameras:
         few = Choice(min(choice.seeds, MOST_SEEDS_WITH_CAMERAS), choice.options)
         found |= _sweeps(few, WITH_CAMERAS, seen, {})
@@ -65,6 +66,15 @@ def _sweeps(
     return {f"{name}_{NOBODY}": nobody, name: told}
 
 
+def _ranked(choice: Choice, scenarios: Sequence[str]) -> dict[str, Specification]:
+    """Return the sweeps that the ranking needs besides: of nominal twins, and of the controls."""
+    settled: dict[str, JsonValue] = {"latency": "fixed", "cameras": False}
+    found = ranking.twins(choice, REFERENCE, scenarios, settled, {"recipients": TOLD})
+    for control in CONTROLS:
+        found |= ranking.both_sweeps(choice, control, scenarios, settled)
+    return found
+
+
 def _models(choice: Choice) -> tuple[str, ...]:
     """Return the response models: the one that the user gives, or all."""
     return (str(choice.options[CREWS]),) if CREWS in choice.options else MODELS
@@ -77,7 +87,28 @@ def tables(results: Results) -> Sequence[Table]:
         model: Baselines.of(_having(nobody, crews=model), ()) for model in _models(results.choice)
     }
     harms = [_harms(nobody, rows, model, baselines[model]) for model in baselines]
-    return _families(results, rows, baselines), *harms
+    return _families(results, rows, baselines), _ranking(results), *harms
+
+
+def _ranking(results: Results) -> Table:
+    """Return the ranking of whom to tell, with people who respond as they do by default."""
+    models = _models(results.choice)
+    model = {CREWS: models[0] if len(models) == 1 else DEFAULT_MODEL}
+    twins = results.rows[f"{ranking.TWINS}{REFERENCE.name}"]
+    told = _having(results.rows[WITHOUT_CAMERAS], **model)
+    tried = {
+        f"{REFERENCE.name}, {name} told": ranking.Tried(
+            scores.with_conflict(_having(told, recipients=name)), _having(twins, recipients=name)
+        )
+        for name in TOLD
+    }
+    controls = {
+        name: one
+        for name, one in ranking.tried(results.rows).items()
+        if name in {control.name for control in CONTROLS}
+    }
+    nobody = _having(results.rows[f"{WITHOUT_CAMERAS}_{NOBODY}"], **model)
+    return ranking.table({**tried, **controls}, nobody)
 
 
 def _rows(results: Results, ending: str) -> list[Row]:

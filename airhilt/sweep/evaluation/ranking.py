@@ -1,0 +1,161 @@
+"""The ranking of assistants by Youden's index over conflicts and their nominal twins.
+
+The index (Youden, Cancer 3:32, 1950) is the share of conflicts averted, less those that an
+assistant has brought about, plus the share of nominal twins that it left undisturbed, minus one.
+Who says nothing has 0, and who warns of everything has at most 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import JsonValue
+
+from airhilt.engine_families import NONE
+from airhilt.metrics.estimates import Estimate, of_clusters, share_of
+from airhilt.sweep.evaluation import scores
+from airhilt.sweep.evaluation.assistants import CONTROLS, Assistant, shipped_scenarios
+from airhilt.sweep.evaluation.preset import Choice, Row
+from airhilt.sweep.evaluation.tables import Cell, Table, number, share
+from airhilt.sweep.specification import Specification
+
+TWINS = "twins_"
+"""Beginning of the names of the sweeps of nominal twins; the assistant's name follows."""
+COLUMNS = (
+    "assistant", "index", "averted", "brought about", "twins undisturbed", "warning, s",
+    "nuisance, 1/h",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Tried:
+    """Runs of one assistant with conflicts, and with their nominal twins."""
+
+    conflicts: Sequence[Row]
+    twins: Sequence[Row]
+
+
+def sweeps(
+    choice: Choice,
+    assistants: Sequence[Assistant],
+    names: Sequence[str],
+    settled: Mapping[str, JsonValue],
+) -> dict[str, Specification]:
+    """Return the sweeps of a ranking over scenarios, by name.
+
+    There are two of each assistant and each control, with conflicts and with their twins, and one
+    without an assistant.
+    """
+    found = {NONE: choice.specification(names, {**settled, "assistant": NONE})}
+    for each in (*assistants, *CONTROLS):
+        found |= both_sweeps(choice, each, names, settled)
+    return found
+
+
+def both_sweeps(
+    choice: Choice, assistant: Assistant, names: Sequence[str], settled: Mapping[str, JsonValue]
+) -> dict[str, Specification]:
+    """Return the two sweeps of an assistant over the scenarios that it applies to, by name."""
+    own = [name for name in names if assistant.applies_to(shipped_scenarios()[name])]
+    with_conflicts = choice.specification(own, {**settled, **_options(assistant)})
+    return {assistant.name: with_conflicts, **twins(choice, assistant, own, settled)}
+
+
+def twins(
+    choice: Choice,
+    assistant: Assistant,
+    names: Sequence[str],
+    settled: Mapping[str, JsonValue],
+    axes: Mapping[str, Sequence[JsonValue]] | None = None,
+) -> dict[str, Specification]:
+    """Return the sweep of an assistant with the nominal twins of scenarios, by its name."""
+    own = [name for name in names if shipped_scenarios()[name].nominal_twin is not None]
+    options = {**settled, **_options(assistant), "twin": True}
+    return {f"{TWINS}{assistant.name}": choice.specification(own, options, axes)}
+
+
+def _options(assistant: Assistant) -> dict[str, JsonValue]:
+    return {"assistant": assistant.name, "modalities": assistant.modalities}
+
+
+def tried(rows: Mapping[str, Sequence[Row]]) -> dict[str, Tried]:
+    """Return the runs of each assistant that has twins, by its name."""
+    return {
+        name: Tried(scores.with_conflict(own), rows[f"{TWINS}{name}"])
+        for name, own in rows.items()
+        if f"{TWINS}{name}" in rows
+    }
+
+
+def youden_index(tried: Tried, nobody: Sequence[Row]) -> Estimate:
+    """Return the index of an assistant, with the interval of a bootstrap over scenarios.
+
+    ``nobody`` are the runs without an assistant, which are compared by scenario and seed.
+    """
+    was_lost = {scores.pair_of(row): bool(row["lost"]) for row in nobody}
+    conflicts = [row for row in tried.conflicts if scores.pair_of(row) in was_lost]
+    names = sorted({row["scenario"] for row in (*conflicts, *tried.twins)})
+    sums = np.zeros((len(names), 4))
+    for row in conflicts:
+        lost = was_lost[scores.pair_of(row)]
+        sums[names.index(row["scenario"]), :2] += lost - bool(row["lost"]), lost
+    for row in tried.twins:
+        sums[names.index(row["scenario"]), 2:] += is_undisturbed(row), 1
+    return of_clusters(sums, _index, len(conflicts) + len(tried.twins))
+
+
+def _index(sums: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the index of sums of averted, lost, undisturbed and twins in the last axis."""
+    averted, lost, undisturbed, twins = np.moveaxis(sums, -1, 0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        index: NDArray[np.float64] = averted / lost + undisturbed / twins - 1.0
+    return index
+
+
+def is_undisturbed(twin: Row) -> bool:
+    """Return whether nobody was alerted in a nominal twin, and nobody came to harm."""
+    return twin["nuisance_alerts"] == 0 and not twin["lost"]
+
+
+def table(tried: Mapping[str, Tried], nobody: Sequence[Row]) -> Table:
+    """Return the ranking of what was tried, by name, the highest index first."""
+    indices = {name: youden_index(own, nobody) for name, own in tried.items()}
+    in_order = sorted(tried, key=lambda name: _or_last(indices[name].value), reverse=True)
+    return Table(
+        name="ranking",
+        title="Ranking",
+        columns=COLUMNS,
+        rows=tuple((name, *_cells(tried[name], indices[name], nobody)) for name in in_order),
+        notes=(
+            "Index: share of the conflicts averted, less those brought about, plus the share of "
+            "nominal twins undisturbed, minus 1 (Youden). Averted: no harm to anybody, of the runs "
+            "with harm without an assistant. Brought about: harm, of the others. Undisturbed: no "
+            "alert and no harm in the same traffic without its conflict. `silent` and `cry_wolf` "
+            "are negative controls. Each is ranked over the scenarios that it is made for.",
+        ),
+    )
+
+
+def _or_last(index: float | None) -> float:
+    return -math.inf if index is None or math.isnan(index) else index
+
+
+def _cells(tried: Tried, index: Estimate, nobody: Sequence[Row]) -> tuple[Cell, ...]:
+    was_lost = {scores.pair_of(row): row["lost"] for row in nobody}
+    ends = [
+        (was_lost[pair], row["lost"])
+        for row in tried.conflicts
+        if (pair := scores.pair_of(row)) in was_lost
+    ]
+    return (
+        number(index, 2),
+        share(share_of([not lost for without, lost in ends if without])),
+        share(share_of([lost for without, lost in ends if not without])),
+        share(share_of([is_undisturbed(row) for row in tried.twins])),
+        number(scores.mean(tried.conflicts, "time_to_first_warning_s"), 1),
+        number(scores.nuisance_per_hour(tried.twins)),
+    )
