@@ -254,11 +254,11 @@ class Simulation:
             world.runways,
             Plans(setup.lines, setup.ends_ns, usual_rates_m_s),
             setup.options.advisory_channel == "frequency",
-            [
-                worker.description.name
+            {
+                one.name: [wanted.key for wanted in one.inputs]
                 for worker in self._participants.workers
-                if worker.description.modality == "decision"
-            ],
+                if (one := worker.description).modality == "decision"
+            },
             setup.options.given_modalities,
             setup.seats,
             self._director.pace.name,

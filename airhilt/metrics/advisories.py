@@ -49,6 +49,8 @@ class AdvisoryRecord:
     severity: Severity = Severity.INFO
     """Highest severity of all revisions."""
     revisions: set[int] = field(default_factory=set)
+    unfounded: dict[str, None] = field(default_factory=dict)
+    """What it says that it rests on and cannot, in its order."""
     last_s: float = 0.0
     """Time of its last revision."""
     spoken_ns: int | None = None
@@ -79,8 +81,8 @@ class AdvisoryRecords:
         self._shows = shows
         self._records: dict[str, AdvisoryRecord] = {}
 
-    def add(self, advisory: Advisory) -> bool:
-        """Add an advisory; return true if it is a new revision."""
+    def add(self, advisory: Advisory, unfounded: Iterable[str] = ()) -> bool:
+        """Add an advisory and what it cannot rest on; return true if it is a new revision."""
         record = self._records.get(advisory.id)
         if record is None:
             record = AdvisoryRecord(advisory)
@@ -88,6 +90,7 @@ class AdvisoryRecords:
         if advisory.revision in record.revisions:
             return False
         record.revisions.add(advisory.revision)
+        record.unfounded |= dict.fromkeys(unfounded)
         record.last_s = advisory.t_ns / SECOND_NS
         record.severity = max(record.severity, advisory.severity, key=lambda one: one.rank)
         record.traffic |= dict.fromkeys(self._traffic(advisory))
@@ -143,6 +146,7 @@ class AdvisoryRecords:
                 severity=record.severity,
                 revisions=len(record.revisions),
                 nuisance_to=self._nuisance_to(record, involved),
+                unfounded=tuple(record.unfounded),
             )
             for record in self._records.values()
         ]

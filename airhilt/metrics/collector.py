@@ -25,6 +25,7 @@ from airhilt.messages import (
 )
 from airhilt.metrics.advisories import JUSTIFIED_WITHIN_S, AdvisoryRecords
 from airhilt.metrics.calls import CallRecords
+from airhilt.metrics.deliveries import Deliveries
 from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.equipment import EquipmentRecords
 from airhilt.metrics.evidence_ages import EvidenceAges
@@ -42,6 +43,8 @@ from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, ns_to_seconds
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import RunwayMonitor
+
+EMPTY: Mapping[str, Sequence[str]] = {}
 
 
 @dataclass
@@ -63,7 +66,8 @@ class Collector:
     """Collects the numbers of a run.
 
     The height of the ground is in m above WGS84; away from airports there is no monitor of runways.
-    `deciders` are the names of the workers that decide, `given` the modalities that they are given,
+    `deciders` are the workers that decide, by name, with the patterns of the keys that they
+    subscribe to, `given` the modalities that they are given,
     `seats` the units and callsigns that are left to people. The run begins with the `pace`.
     """
 
@@ -75,7 +79,7 @@ class Collector:
         runways: RunwayMonitor | None,
         plans: Plans,
         is_on_frequency: bool = False,
-        deciders: Collection[str] = (),
+        deciders: Mapping[str, Sequence[str]] = EMPTY,
         given: Collection[str] = MODALITIES,
         seats: Collection[str] = (),
         pace: str = REAL_TIME,
@@ -97,6 +101,9 @@ class Collector:
         self._calls = CallRecords()
         self._evidence = EvidenceAges(deciders, given)
         self._detections = DetectionScores()
+        self._deliveries = Deliveries(
+            deciders, scenario.callsigns, scenario.roster, self._detections.was_seen
+        )
         self._exchanges: list[ModelExchange] = []
         self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors], pace)
         new_records = partial(
@@ -142,19 +149,22 @@ class Collector:
         self._calls.take(message)
         self._evidence.take(message)
         self._detections.take(message)
+        self._deliveries.take(key, message)
         self._people.take(key, message)
 
     def step(self, record: StepRecord) -> None:
         """Receive a finished step of a worker."""
         self._latencies.step(record)
         self._evidence.step(record)
+        self._deliveries.step(record)
 
     def _take_advisory(self, advisory: Advisory) -> None:
-        if self._advisories.add(advisory):
+        if self._advisories.add(advisory, self._deliveries.unfounded(advisory)):
             self._latencies.add("decision", advisory.t_ready_ns, advisory.t_ns)
         if advisory.active:
             self.last_advisory = advisory
-        if self._advisories.warns_of_conflict(advisory):
+        is_founded = self._deliveries.is_founded(advisory, self._scenario.pair or ())
+        if is_founded and self._advisories.warns_of_conflict(advisory):
             is_voiced = self.modalities.get("tts") == "on" or self._is_called(advisory.recipient)
             self._first_warning.warned(advisory, is_voiced)
 

@@ -90,6 +90,11 @@ class AdvisorySummary(_Part):
     nuisance_to: tuple[str, ...] = Field(
         description="names of its traffic that were in no conflict; ``nobody`` if it names none"
     )
+    unfounded: tuple[str, ...] = Field(
+        default=(),
+        description="calls, cameras and transponders that it says it rests on, and that were "
+        "unknown, had not been delivered by then, or concern nobody whom it names",
+    )
 
 
 class EquipmentSummary(_Part):

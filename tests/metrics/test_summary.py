@@ -15,6 +15,7 @@ from airhilt.cli.progress import print_summary
 from airhilt.commands import AltitudeCommand
 from airhilt.geodesy.relative_motion import VerticalProfile
 from airhilt.messages import (
+    AdsbReport,
     Advisory,
     AdvisoryAudio,
     ConflictTruth,
@@ -71,6 +72,12 @@ def conflict(t_s: float, phase: str) -> ConflictTruth:
     )
 
 
+def report(number: int) -> AdsbReport:
+    """Return the first report of an actor: who warns must have been told of both."""
+    icao24 = SCENARIO.actors[number].icao24  # type: ignore[union-attr]  # aircraft
+    return AdsbReport.model_construct(**cast(Any, {"icao24": icao24, "t_adsb_in_ns": 0}))
+
+
 class FollowedRun:
     """A collector over a head-on encounter that meets after 60 s."""
 
@@ -82,6 +89,7 @@ class FollowedRun:
             names=(FIRST, SECOND),
         )
         self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], {}, {}))
+        self.take(report(0)).take(report(1))
 
     def take(self, message: Any) -> FollowedRun:
         self.collector.take("", message, b"")
@@ -176,7 +184,7 @@ def test_avoided_lost_missed_and_no_conflict_exclude_each_other_and_cover_all(
         pairs={(FIRST, SECOND): truth}, time_to_loss_s=lambda _: 60.0, flying=lambda _: False
     )
     collector = Collector(SCENARIO, 0.0, cast(Any, monitor), None, Plans([], {}, {}))
-    messages: list[ConflictTruth | Advisory] = []
+    messages: list[AdsbReport | ConflictTruth | Advisory] = [report(0), report(1)]
     if opens_s is not None:
         messages.append(conflict(opens_s, "opened"))
         messages += [] if lasts_s is None else [conflict(opens_s + lasts_s, "closed")]
@@ -333,6 +341,8 @@ def test_an_advisory_on_the_frequency_is_spoken_from_when_the_call_begins_that_i
     name = f"advisory.a.0.{FIRST}"
     of_call = {"id": name, "t_ns": 12 * SECOND_NS}
     for message in (
+        report(0),
+        report(1),
         advisory(9.0).model_copy(update={"recipient": FIRST}),
         voice(9.2, recipient=FIRST),
         SpokenTruth(

@@ -58,6 +58,10 @@ class AdvisoryEvidence(Content):
 
     def as_json(self, run: RunData) -> list[Json]:
         """Return one object for each revision of an advisory."""
+        advisories = run.summary.advisories if run.summary else ()
+        unfounded = {readable(one.id): _names(one.unfounded) for one in advisories}
+        for row in self._rows.values():
+            row["unfounded"] = unfounded.get(row["id"], [])
         if self._left_out:
             run.notes.append(
                 f"The evidence shows the first {MOST_ROWS} advisories; {self._left_out} more are "
