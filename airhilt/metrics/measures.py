@@ -89,6 +89,35 @@ FIRST_DETECTION = Measure(
     "first_detection_range", "First detection range", "m", "mean", "first_detection_range_m"
 )
 RECALL = Measure("recall", "Recall of sightings", "%", "mean", "vision_recall")
+GO_AROUNDS = Measure("go_arounds", "Go-arounds", "per run", "mean", "costs_go_arounds")
+REJECTED_TAKEOFFS = Measure(
+    "rejected_takeoffs", "Rejected take-offs", "per run", "mean", "costs_rejected_takeoffs"
+)
+LEVEL_DEVIATION = Measure(
+    "level_deviation", "Off the planned level", "ft s", "mean", "costs_level_deviation_ft_s"
+)
+PATH_DEVIATION = Measure(
+    "path_deviation", "Off the planned path", "NM s", "mean", "costs_path_deviation_nm_s"
+)
+TRANSMISSIONS = Measure("transmissions", "Transmissions", "per run", "mean", "radio_transmissions")
+OCCUPIED = Measure("occupied", "Frequency occupied", "s", "mean", "radio_occupied_s")
+CLARIFICATIONS = Measure(
+    "clarifications", "Clarifications asked", "per run", "mean", "radio_clarifications"
+)
+ADVISORIES = Measure("advisories", "Advisories", "1/h", "per_hour", "advisories")
+ADVICE_SPOKEN = Measure("advice_spoken", "Advice spoken", "s", "mean", "costs_advice_spoken_s")
+COSTS = (
+    GO_AROUNDS,
+    REJECTED_TAKEOFFS,
+    LEVEL_DEVIATION,
+    PATH_DEVIATION,
+    TRANSMISSIONS,
+    OCCUPIED,
+    CLARIFICATIONS,
+    ADVISORIES,
+    ADVICE_SPOKEN,
+)
+"""What a run costs the people in it; what an assistant costs is the difference to a run without."""
 MEASURES = (
     TIME_TO_FIRST_WARNING,
     TIME_AFTER_WINDOW,
@@ -103,5 +132,6 @@ MEASURES = (
     WORD_ERRORS,
     FIRST_DETECTION,
     RECALL,
+    *COSTS,
 )
 """All of them, in the order in which pages show them."""

@@ -23,7 +23,7 @@ from airhilt.messages import (
     Transmission,
 )
 from airhilt.metrics.collector import Collector
-from airhilt.metrics.plans import Plans
+from airhilt.metrics.plans import Plans, Start
 from airhilt.metrics.summary import Summary
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
@@ -231,7 +231,7 @@ def plans(*climbs: tuple[float, int], rate_fpm: int | None = 1_500) -> Plans:
     ]  # fmt: skip
     effective = [EffectiveLine(line, line, 0.0, (), frozenset()) for line in lines]
     usual_m_s = load_aircraft_type("c172p").speeds.climb_rate_fpm * FOOT_PER_MINUTE
-    return Plans(effective, planned_ends_ns(effective, TextRadio(160.0)), {"AA": usual_m_s})
+    return Plans(effective, planned_ends_ns(effective, TextRadio(160.0)), {"AA": Start(usual_m_s)})
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)

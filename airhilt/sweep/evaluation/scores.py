@@ -36,13 +36,13 @@ class Baselines:
     lost
         Runs without an assistant that ended with harm to the pair.
     nobody
-        All runs without an assistant.
+        Runs without an assistant.
     well_clear_s
         Time of the first warning of `well_clear`, where it gave one.
     """
 
     lost: frozenset[Pair]
-    nobody: frozenset[Pair]
+    nobody: Mapping[Pair, Row]
     well_clear_s: Mapping[Pair, float]
 
     @classmethod
@@ -50,7 +50,7 @@ class Baselines:
         """Return the baselines in runs without an assistant, and with `well_clear`."""
         return cls(
             frozenset(pair_of(row) for row in nobody if row["avoided"] is False),
-            frozenset(pair_of(row) for row in nobody),
+            {pair_of(row): row for row in nobody},
             {
                 pair_of(row): row["t_first_warning_s"]
                 for row in well_clear
@@ -122,6 +122,30 @@ def nuisance_per_hour(rows: Sequence[Row]) -> Estimate:
     nominal = [row for row in rows if row["nominal"] is True and row["nuisance_alerts"] is not None]
     return rate_of(
         [row["nuisance_alerts"] for row in nominal], [row["duration_s"] / HOUR_S for row in nominal]
+    )
+
+
+def broken_off(row: Row) -> int:
+    """Return how many approaches and take-offs were broken off in a run."""
+    return int(row["costs_go_arounds"] + row["costs_rejected_takeoffs"])
+
+
+def occupied_s(row: Row) -> float:
+    """Return for how long somebody was on the air in a run."""
+    return float(row["radio_occupied_s"])
+
+
+def added(rows: Sequence[Row], baselines: Baselines, number: Callable[[Row], float]) -> Estimate:
+    """Return the mean of a number of runs less that of the runs without an assistant."""
+    paired = [(row, baselines.nobody[pair_of(row)]) for row in rows
+              if pair_of(row) in baselines.nobody]  # fmt: skip
+    return mean_of([number(row) - number(without) for row, without in paired])
+
+
+def advisories_per_hour(rows: Sequence[Row]) -> Estimate:
+    """Return the advisories of any severity in an hour of the runs."""
+    return rate_of(
+        [row["advisories"] for row in rows], [row["duration_s"] / HOUR_S for row in rows]
     )
 
 

@@ -8,6 +8,7 @@ from itertools import product
 from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, REFERENCE, shipped_scenarios
+from airhilt.sweep.evaluation.costs import COSTS, NOTE, costs
 from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
@@ -68,10 +69,10 @@ def _given(choice: Choice) -> Mapping[str, str]:
 
 
 def tables(results: Results) -> Sequence[Table]:
-    """Return the tables: families, harms, severities, modalities, topologies, crews."""
+    """Return the tables: families, costs, harms, severities, modalities, topologies, crews."""
     rows = results.rows
     baselines = Baselines.of(rows[NONE], rows["well_clear"])
-    makers = [_families, _harms, _severities, _modalities]
+    makers = [_families, _costs, _harms, _severities, _modalities]
     if TOPOLOGIES in rows:
         makers.append(_topologies)
     if CREWS in rows:
@@ -92,6 +93,21 @@ def _families(results: Results, baselines: Baselines) -> Table:
         columns=("family", "assistant", *SCORES, *MARGINS),
         rows=tuple(rows),
         notes=tuple(_notes(results)),
+    )
+
+
+def _costs(results: Results, baselines: Baselines) -> Table:
+    rows = [
+        (family, each.name, *costs(own, baselines))
+        for family, each in product(_names(results), ASSISTANTS)
+        if (own := _of_family(results.rows[each.name], family))
+    ]
+    return Table(
+        name="costs",
+        title="What it costs people",
+        columns=("family", "assistant", *COSTS),
+        rows=tuple(rows),
+        notes=(NOTE,),
     )
 
 

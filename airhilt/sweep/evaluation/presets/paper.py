@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from airhilt.cosim.latency_presets import ASR_S, TTS_S, VISION_S
-from airhilt.metrics.estimates import median_of
+from airhilt.metrics.estimates import mean_of, median_of
 from airhilt.sweep.evaluation.assistants import shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
-from airhilt.sweep.evaluation.scores import known, mean, share
+from airhilt.sweep.evaluation.scores import advisories_per_hour, broken_off, known, mean, share
 from airhilt.sweep.evaluation.tables import NOTHING, Cell, Table, number
 from airhilt.sweep.evaluation.tables import share as share_cell
 from airhilt.sweep.specification import Specification
@@ -26,6 +26,7 @@ FIRST_DETECTION_M = 125.0
 GIVEN = "given by --latency"
 PARTS = ("speech", "recognition", "evidence", "decision", "voice")
 """Parts of the time to first warning (docs/metrics.md)."""
+COSTS = ("broken off", "advisories, 1/h")
 
 
 def specifications(choice: Choice) -> Mapping[str, Specification]:
@@ -124,11 +125,12 @@ def _variants(rows: Sequence[Row]) -> Table:
     return Table(
         name="variants",
         title="Time to first warning by variant, in s",
-        columns=("variant", "warned", "mean", "median", "before", *PARTS, "avoided"),
+        columns=("variant", "warned", "mean", "median", "before", *PARTS, "avoided", *COSTS),
         rows=tuple(_variant(name, own) for name, own in {**groups, "all": rows}.items()),
         notes=(
             "Before: share of the warnings that came before the conflict began. The five parts are "
-            "means. Avoided: of the runs in which somebody was warned, or the pair came to harm.",
+            "means. Avoided: of the runs in which somebody was warned, or the pair came to harm. "
+            "Broken off: go-arounds and rejected take-offs per run.",
         ),
     )
 
@@ -149,6 +151,8 @@ def _variant(name: str, rows: Sequence[Row]) -> tuple[Cell, ...]:
         f"{100.0 * early / len(warned):.0f} %" if warned else NOTHING,
         *(_plain(rows, f"first_warning_parts_{part}_s") for part in PARTS),
         share_cell(share(rows, "avoided")),
+        number(mean_of([broken_off(row) for row in rows]), 2),
+        number(advisories_per_hour(rows)),
     )
 
 

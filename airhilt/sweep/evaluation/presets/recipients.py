@@ -16,6 +16,7 @@ from airhilt.engine_families import NONE
 from airhilt.scenario.models.responses import ResponseModelName
 from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import REFERENCE, shipped_scenarios
+from airhilt.sweep.evaluation.costs import COSTS, NOTE, costs
 from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
@@ -106,9 +107,9 @@ def _families(results: Results, rows: Sequence[Row], baselines: Mapping[str, Bas
     return Table(
         name="recipients",
         title="Who is told",
-        columns=("family", "told", CREWS, "warned", "avoided", "lead, s", "nuisance, 1/h"),
+        columns=("family", "told", CREWS, "warned", "avoided", "lead, s", "nuisance, 1/h", *COSTS),
         rows=tuple(
-            (name, told, model, *_scores(own, baselines[model]))
+            (name, told, model, *_scores(own, baselines[model]), *costs(own, baselines[model]))
             for name, told, model, own in groups
         ),
         notes=tuple(_notes(results)),
@@ -136,6 +137,7 @@ def _notes(results: Results) -> Iterator[str]:
         "the same responses. Nuisance: alerts in an hour of nominal traffic. In brackets: 95 % "
         "interval."
     )
+    yield NOTE
     needing = " and ".join(NEED_CAMERAS)
     if results.choice.has_cameras:
         yield f"{needing} with cameras, on at most {MOST_SEEDS_WITH_CAMERAS} seeds."
