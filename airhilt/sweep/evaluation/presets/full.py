@@ -113,8 +113,8 @@ def _costs(results: Results, baselines: Baselines) -> Table:
 
 def _notes(results: Results) -> Iterator[str]:
     yield (
-        "In brackets: 95 % interval (Wilson for shares, bootstrap over the runs for means and "
-        "rates). Avoided: no harm to the pair, of the runs in which it came to harm without an "
+        "In brackets: 95 % interval over the scenarios, or over the seeds of one scenario. "
+        "Avoided: no harm to the pair, of the runs in which it came to harm without an "
         "assistant. "
         "Nuisance: alerts in an hour of nominal traffic. A family that an assistant is not listed "
         "in does not apply to it: it is not made for it, or has nothing to read of the pair."

@@ -9,10 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from airhilt.cosim.latency_presets import ASR_S, TTS_S, VISION_S
-from airhilt.metrics.estimates import mean_of, median_of
 from airhilt.sweep.evaluation.assistants import shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
-from airhilt.sweep.evaluation.scores import advisories_per_hour, broken_off, known, mean, share
+from airhilt.sweep.evaluation.scores import (
+    advisories_per_hour,
+    broken_off,
+    mean,
+    mean_over,
+    median,
+    share,
+    values,
+)
 from airhilt.sweep.evaluation.tables import NOTHING, Cell, Table, number
 from airhilt.sweep.evaluation.tables import share as share_cell
 from airhilt.sweep.specification import Specification
@@ -99,22 +106,23 @@ def _rests_on_the_call_alone(row: Row) -> bool:
 def _compared(
     what: str, paper: float, rows: Sequence[Row], column: str, origin: str
 ) -> tuple[Cell, ...]:
-    values = known(rows, column)
+    runs = len(values(rows, column))
     digits = 0 if column.endswith("_m") else 2
     return (
         what,
         f"{paper:g}",
         number(mean(rows, column), digits),
-        number(median_of(values), digits),
-        len(values),
-        origin if values else "not measured",
+        number(median(rows, column), digits),
+        runs,
+        origin if runs else "not measured",
     )
 
 
 def _notes(choice: Choice) -> Iterator[str]:
     yield (
-        "In brackets: 95 % interval of a bootstrap over the runs. ASR and vision latency: the "
-        "median of each run. Latencies of stages are no results: the latency source draws them."
+        "In brackets: 95 % interval over the variants, or over the seeds of one. ASR and vision "
+        "latency: the median of each run. Latencies of stages are no results: the latency source "
+        "draws them."
     )
     if not choice.has_cameras:
         yield "Without cameras: vision and the first detection were not run."
@@ -147,11 +155,11 @@ def _variant(name: str, rows: Sequence[Row]) -> tuple[Cell, ...]:
         name,
         f"{len(warned)} of {len(rows)}",
         number(mean(rows, column), 2),
-        number(median_of(known(rows, column)), 2),
+        number(median(rows, column), 2),
         f"{100.0 * early / len(warned):.0f} %" if warned else NOTHING,
         *(_plain(rows, f"first_warning_parts_{part}_s") for part in PARTS),
         share_cell(share(rows, "avoided")),
-        number(mean_of([broken_off(row) for row in rows]), 2),
+        number(mean_over(rows, broken_off), 2),
         number(advisories_per_hour(rows)),
     )
 
@@ -163,8 +171,8 @@ def _is_before(row: Row) -> bool:
 
 
 def _plain(rows: Sequence[Row], column: str) -> Cell:
-    values: Sequence[float] = known(rows, column)
-    return f"{sum(values) / len(values):.2f}" if values else NOTHING
+    found: Sequence[float] = values(rows, column)
+    return f"{sum(found) / len(found):.2f}" if found else NOTHING
 
 
 PRESET = Preset(

@@ -135,7 +135,7 @@ def _notes(results: Results) -> Iterator[str]:
         f"Assistant: `{REFERENCE.name}`. Told: whom it tells. Crews: how people respond. Avoided: "
         "no harm to the pair, of the runs in which it came to harm without an assistant and with "
         "the same responses. Nuisance: alerts in an hour of nominal traffic. In brackets: 95 % "
-        "interval."
+        "interval over the scenarios, or over the seeds of one scenario."
     )
     yield NOTE
     needing = " and ".join(NEED_CAMERAS)
