@@ -55,9 +55,9 @@ def test_runs_of_a_scenario_are_a_cluster_and_in_one_scenario_those_of_a_seed() 
 
 @pytest.mark.parametrize("n", range(1, 3))
 def test_one_or_two_clusters_give_a_mean_or_a_rate_no_interval(n: int) -> None:
-    values, clusters = [1.0, 2.0, 5.0] * 2, np.arange(6) % n
-    assert mean_of(values, clusters) == Estimate(pytest.approx(8 / 3), None, None, 6)
-    assert hourly(values, clusters) == Estimate(pytest.approx(8 / 3), None, None, 6)
+    values, clusters = [1.0, 2.0, 6.0] * 2, np.arange(6) % n
+    assert mean_of(values, clusters) == Estimate(3.0, None, None, 6)
+    assert hourly(values, clusters) == Estimate(3.0, None, None, 6)
     assert median_of(values, clusters) == Estimate(2.0, None, None, 6)
 
 
@@ -81,7 +81,7 @@ def test_what_did_not_happen_may_still_happen() -> None:
 
 
 def test_clusters_that_all_agree_on_a_number_say_nothing_of_its_spread() -> None:
-    assert mean_of([0.15] * 9, np.arange(9) // 3) == Estimate(pytest.approx(0.15), None, None, 9)
+    assert mean_of([0.15] * 8, np.arange(8) // 2) == Estimate(0.15, None, None, 8)
 
 
 def test_an_estimate_is_told_in_another_unit_with_its_limits() -> None:
