@@ -30,8 +30,8 @@ def _sweeps(found: SweepComparison) -> Iterator[Table | str]:
     alone_first, alone_second = found.without_partner
     alone = f"{alone_first} of {found.first}, {alone_second} of {found.second}"
     by = ", ".join(found.paired_by)
-    draws = "" if found.draws == found.pairs else f", of {found.draws} scenarios with a seed"
-    yield f"{found.pairs} pairs{draws} by {by}; without a partner: {alone}"
+    clusters = "" if found.clusters == found.pairs else f" in {found.clusters} clusters"
+    yield f"{found.pairs} pairs{clusters} by {by}; without a partner: {alone}"
     for name, (one, other) in found.differing.items():
         yield f"{name}: {one} and {other}"
     for family, differences in found.families.items():

@@ -148,6 +148,7 @@ def _rows(summary: Summary) -> Iterator[tuple[str, str]]:
     yield "avoided", "-" if summary.avoided is None else _yes(summary.avoided)
     alerts = summary.nuisance_alerts
     yield "nuisance alerts", str(alerts) if alerts is not None else NOT_COUNTED
+    yield from _cost_rows(summary)
     if dropped := [f"{count:,} on {what}" for what, count in summary.messages_dropped.items()]:
         yield "dropped messages", ", ".join(dropped)
     yield "radio", _radio(summary.radio)
@@ -196,20 +197,35 @@ def _separation_rows(summary: Summary) -> Iterator[tuple[str, str]]:
         yield "runway incursion", f"{severity}: {where}, {way}{near}"
 
 
+def _cost_rows(summary: Summary) -> Iterator[tuple[str, str]]:
+    """Yield rows on what the run costs the people in it."""
+    costs = summary.costs
+    broken_off = counted(costs.go_arounds, "go-around")
+    yield "broken off", f"{broken_off}, {counted(costs.rejected_takeoffs, 'rejected take-off')}"
+    yield (
+        "off the plan",
+        f"level {costs.level_deviation_ft_s:,.0f} ft s, path {costs.path_deviation_nm_s:.2f} NM s",
+    )
+    if costs.advisories_per_hour is not None:
+        rate = f"{costs.advisories_per_hour:.1f} an hour"
+        yield "advisories", f"{rate}, spoken for {costs.advice_spoken_s:.1f} s"
+
+
 def _radio(radio: RadioStatistics) -> str:
     """Return how many transmissions there were, and what was wrong with them."""
     wrong = {
         "blocked": radio.blocked,
         "carrier only": radio.stuck_microphone,
         "repeated": radio.repeats,
-        "to say again": radio.say_agains,
+        "to say again or confirm": radio.clarifications,
         "misheard": radio.hearing.get("misheard", 0),
         "missed": radio.hearing.get("missed", 0),
         "without a transcript": radio.transcripts_missing or 0,
         "words of noise alone": radio.hallucinated or 0,
     }
     counts = [f"{count} {what}" for what, count in wrong.items() if count]
-    return ", ".join([counted(radio.transmissions, "transmission"), *counts])
+    on_air = f"{counted(radio.transmissions, 'transmission')} in {radio.occupied_s:.1f} s"
+    return ", ".join([on_air, *counts])
 
 
 def _recognition_rows(summary: Summary) -> Iterator[tuple[str, str]]:

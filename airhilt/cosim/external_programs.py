@@ -31,11 +31,12 @@ from airhilt.messages import (
     SeatAnswer,
     TakeSeat,
     Transcript,
+    is_match,
     key_chunk,
 )
 from airhilt.seats import Seats
 from airhilt.sim import RealTime, Virtual
-from airhilt.workers.pool import is_match, parse_output
+from airhilt.workers.pool import parse_output
 
 PAGE = "page"
 """Key of the refusals of a page: they are logged, and change nothing of the run."""

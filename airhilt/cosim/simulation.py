@@ -37,14 +37,14 @@ from airhilt.host.machine import cpu_s, give_memory_back
 from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import WorkerDescription
 from airhilt.metrics.collector import Collector
-from airhilt.metrics.plans import Plans
+from airhilt.metrics.plans import Plans, Start
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
 from airhilt.record import LatencyLog, LogWriter, RunInfo
 from airhilt.record.audio import AudioRecorder
 from airhilt.report import write_report
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import WildlifeSpec
+from airhilt.scenario.models import AircraftSpec, WildlifeSpec
 from airhilt.seats import Seats
 from airhilt.sensors.adsb import STAGE as ADSB
 from airhilt.sensors.base import Sensor, SensorContext
@@ -242,17 +242,21 @@ class Simulation:
 
     def _make_collector(self) -> Collector:
         setup, world = self._setup, self._world
-        usual_rates_m_s = {
-            callsign: actor.body.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
+        starts = {
+            callsign: Start(
+                actor.body.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE,
+                tuple(setup.site.place(position) for position in actor.spec.route),
+                actor.spec.commands,
+            )
             for callsign, actor in setup.actors.items()
-            if isinstance(actor.body, Aircraft)
+            if isinstance(actor.body, Aircraft) and isinstance(actor.spec, AircraftSpec)
         }
         return Collector(
             setup.scenario,
             setup.site.ground_m,
             world.monitor,
             world.runways,
-            Plans(setup.lines, setup.ends_ns, usual_rates_m_s),
+            Plans(setup.lines, setup.ends_ns, starts),
             setup.options.advisory_channel == "frequency",
             {
                 one.name: [wanted.key for wanted in one.inputs]

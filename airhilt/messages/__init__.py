@@ -153,6 +153,7 @@ from airhilt.messages.worker_protocol import (
     StepOutput,
     StepReply,
     WorkerDescription,
+    is_match,
     parts_of,
 )
 

@@ -12,6 +12,14 @@ from airhilt.messages.base import Nanoseconds, Part
 from airhilt.messages.run import Modality
 
 
+def is_match(key: str, pattern: str) -> bool:
+    """Return whether a key is one of a pattern in which ``*`` stands for one chunk."""
+    chunks, parts = key.split("/"), pattern.split("/")
+    return len(parts) == len(chunks) and all(
+        part in ("*", chunk) for part, chunk in zip(parts, chunks, strict=True)
+    )
+
+
 class InputSpec(Part):
     """Key that a worker subscribes to, relative to the run, and the policy of its queue.
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from airhilt.messages import (
+    ADVISORY_CALL,
     AdvisoryAudio,
     HearingTruth,
     Message,
@@ -20,6 +21,7 @@ from airhilt.messages import (
 from airhilt.metrics.summary import RadioStatistics
 from airhilt.metrics.words import recognition, score
 from airhilt.phraseology import parse_call
+from airhilt.units import SECOND_NS
 
 TEXT = "text"
 """Engine of transcripts that were not recognised: the words of a call without sound."""
@@ -86,6 +88,19 @@ class CallRecords:
     def _call(self, name: str) -> CallRecord:
         return self._calls.setdefault(name, CallRecord())
 
+    def advice_spoken_s(self, is_called: Callable[[str], bool]) -> float:
+        """Return for how long advisories were spoken, in s.
+
+        `is_called` says of a recipient that it hears them on its frequency, where they are calls.
+        """
+        aside = (audio.duration_s for audio in self.spoken if not is_called(audio.recipient))
+        called = (
+            _duration_s(said)
+            for call in self
+            if (said := call.said) is not None and said.id.startswith(ADVISORY_CALL)
+        )
+        return sum(aside) + sum(called)
+
     # --- statistics -------------------------------------------------------------------------
 
     def statistics(self, callsigns: Sequence[str], *, is_recognised: bool) -> RadioStatistics:
@@ -111,6 +126,7 @@ class CallRecords:
             {said.snr_db for _, said in spoken},
             key=lambda level: math.inf if level is None else level,
         )
+        meant = [parse_call(said.text, callsigns) for _, said in words]
         outcomes = Counter(hearing.outcome for call, _ in spoken for hearing in call.hearings)
         return RadioStatistics(
             **recognition(
@@ -129,9 +145,9 @@ class CallRecords:
                 sum(bool(transcript.text) for transcript in noise_heard) if noise_heard else None
             ),
             hearing=dict(sorted(outcomes.items())),
-            say_agains=sum(
-                parse_call(said.text, callsigns).kind == "say_again" for _, said in words
-            ),
+            occupied_s=_occupied_s([said for _, said in spoken]),
+            say_agains=sum(call.kind == "say_again" for call in meant),
+            clarifications=sum(call.asks_again for call in meant),
             repeats=sum(REPEAT.search(said.id) is not None for _, said in words),
             by_snr=[
                 recognition([one for snr_db, one in scores if snr_db == level], level)
@@ -139,3 +155,17 @@ class CallRecords:
                 if scores and len(levels) > 1
             ],
         )
+
+
+def _duration_s(said: SpokenTruth) -> float:
+    return (said.t_end_ns - said.t_tx_ns) / SECOND_NS
+
+
+def _occupied_s(spoken: Sequence[SpokenTruth]) -> float:
+    """Return for how long somebody was on the air, summed over the frequencies, in s."""
+    occupied_ns, free_at_ns = 0, defaultdict[int, int](int)
+    for said in sorted(spoken, key=lambda one: one.t_tx_ns):
+        frequency_khz, end_ns = said.frequency_khz, said.t_end_ns
+        occupied_ns += max(end_ns - max(said.t_tx_ns, free_at_ns[frequency_khz]), 0)
+        free_at_ns[frequency_khz] = max(end_ns, free_at_ns[frequency_khz])
+    return occupied_ns / SECOND_NS

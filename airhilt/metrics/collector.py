@@ -25,6 +25,7 @@ from airhilt.messages import (
 )
 from airhilt.metrics.advisories import JUSTIFIED_WITHIN_S, AdvisoryRecords
 from airhilt.metrics.calls import CallRecords
+from airhilt.metrics.costs import CostRecords
 from airhilt.metrics.deliveries import Deliveries
 from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.equipment import EquipmentRecords
@@ -105,6 +106,7 @@ class Collector:
             deciders, scenario.callsigns, scenario.roster, self._detections.was_seen
         )
         self._exchanges: list[ModelExchange] = []
+        self._costs = CostRecords(plans)
         self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors], pace)
         new_records = partial(
             AdvisoryRecords,
@@ -121,6 +123,7 @@ class Collector:
         """Receive a published message."""
         if isinstance(message, ActorTruth):
             self._people.take_state(message)
+            self._costs.take_state(message)
             return  # The most frequent message: the monitors follow the actors themselves.
         match message:
             case ConflictTruth(phase="begun", t_ns=now_ns):
@@ -201,6 +204,7 @@ class Collector:
         """Return the summary; ``run`` holds the fields that only the run knows."""
         incursions = self._outcome.incursions()
         vision = self._detections.statistics(run["inputs_dropped"])
+        advisories = self._advisories.summaries(incursions)
         return Summary(
             scenario=self._scenario.name,
             duration_s=now_ns / SECOND_NS,
@@ -212,8 +216,13 @@ class Collector:
                 None if vision.exposures_left_out else self._advisories.nuisance_alerts(incursions)
             ),
             clarifications=self._advisories.clarifications(),
-            advisories=self._advisories.summaries(incursions),
+            advisories=advisories,
             equipment=self._equipment.summaries(self._first_warning.t_ns, incursions),
+            costs=self._costs.summary(
+                len(advisories),
+                self._calls.advice_spoken_s(self._is_called),
+                now_ns / SECOND_NS,
+            ),
             people=self._people.summaries(now_ns),
             radio=self._calls.statistics(
                 self._scenario.roster,

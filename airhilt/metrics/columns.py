@@ -41,8 +41,11 @@ KNOWN_KEYS: Mapping[str, tuple[str, ...]] = {
 """Keys of the fields that are dictionaries; other keys, such as a worker's own, have no column."""
 UNITS = {
     "_per_minute": "1/min",
+    "_per_hour": "1/h",
     "_db": "dB",
     "_px": "px",
+    "_ft_s": "ft s",
+    "_nm_s": "NM s",
     "_m": "m",
     "_s": "s",
 }

@@ -21,9 +21,9 @@ from airhilt.messages import (
     Transcript,
     Transmission,
     TransmissionChunk,
+    is_match,
 )
 from airhilt.sim import StepRecord
-from airhilt.workers.pool import is_match
 
 Kind = Literal["radio", "camera", "track"]
 ADDRESS = re.compile(r"^[0-9a-f]{6}$")

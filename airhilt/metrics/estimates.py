@@ -1,11 +1,15 @@
-"""Estimates over many runs, each with a 95 % confidence interval."""
+"""Estimates over many runs, each with a 95 % confidence interval by clusters of runs.
+
+Seeds of one scenario are often alike, or the same run. So a cluster is all runs of a scenario; if
+there is only one scenario, all runs of a seed. docs/sweep-results.md has the reasons.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,25 +18,27 @@ Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 CONFIDENCE = 0.95
+FEWEST_CLUSTERS = 3
+"""Number of clusters below which a mean or a rate has no interval: Student's t of two is 12.7
+standard errors wide on either side."""
 RESAMPLES = 1999
 """Resamples of a bootstrap: 2.5 % of one more than their number is whole (Davison and Hinkley,
 Bootstrap Methods and their Application, 1997)."""
 FEWEST_RESAMPLED = 6
-"""Number of runs below which a bootstrap gives no interval: it stays between the least and the
+"""Number of clusters below which a bootstrap gives no interval: it stays between the least and the
 greatest value, which for n draws are on either side of the median with the probability
 1 - 2^(1 - n) only (David and Nagaraja, Order Statistics, 2003, section 7.1): 50 % for 2."""
-MOST_RESAMPLED = 200
-"""Number of runs above which Student's t gives the interval of a mean: the mean of so many is close
-to normal, and a bootstrap would take memory by the square of their number."""
 SEED = 0
 """Seed of every bootstrap, so that the same table gives the same intervals."""
+ROUNDING = 1e-9
+"""Standard error, relative to the values, below which clusters agree but for rounding."""
 
 
 @dataclass(frozen=True)
 class Estimate:
     """One number over `n` runs, with the limits of its 95 % interval.
 
-    The value is None without runs, the limits if there are too few runs for an interval.
+    The value is None without runs, the limits if there are too few clusters for an interval.
     """
 
     value: float | None
@@ -47,152 +53,189 @@ class Estimate:
         )
         return Estimate(value, low, high, self.n)
 
+    def plus(self, summand: float) -> Estimate:
+        """Return the estimate of a number that is greater by a constant."""
+        value, low, high = (
+            None if one is None else one + summand for one in (self.value, self.low, self.high)
+        )
+        return Estimate(value, low, high, self.n)
+
 
 UNKNOWN = Estimate(None, None, None, 0)
 
 
-def share_of(flags: Sequence[bool] | NDArray[np.bool_]) -> Estimate:
-    """Return the share of true values, with the interval of Wilson (1927)."""
-    from scipy.stats import binomtest
+def clusters_of(scenarios: Sequence[Any], seeds: Sequence[Any]) -> IntArray:
+    """Return the cluster of each run, from 0 on: its scenario; if all have one, its seed."""
+    labels = np.asarray(scenarios, dtype=str)
+    if len(np.unique(labels)) < 2:
+        labels = np.asarray(seeds, dtype=str)
+    return np.unique(labels, return_inverse=True)[1].astype(np.int64)
 
-    n, count = len(flags), int(np.count_nonzero(flags))
-    if n == 0:
+
+def share_of(
+    flags: Sequence[bool] | NDArray[np.bool_],
+    clusters: IntArray,
+    weights: Sequence[float] | Array | None = None,
+) -> Estimate:
+    """Return the share of true values by weight, with Wilson's interval (1927) by clusters.
+
+    In place of the number of values it has the `effective_number`.
+    """
+    values = np.asarray(flags, dtype=np.float64)
+    if values.size == 0:
         return UNKNOWN
-    interval = binomtest(count, n).proportion_ci(CONFIDENCE, method="wilson")
-    return Estimate(count / n, float(interval.low), float(interval.high), n)
+    heavy = np.ones(values.size) if weights is None else np.asarray(weights, dtype=np.float64)
+    share = float(np.average(values, weights=heavy))
+    low, high = _wilson(share, effective_number(values, clusters, heavy))
+    return Estimate(share, low, high, values.size)
 
 
-def mean_of(values: Sequence[float] | Array, with_interval: bool = True) -> Estimate:
-    """Return the mean, with the interval of a BCa bootstrap over the runs.
+def mean_of(values: Sequence[float] | Array, clusters: IntArray) -> Estimate:
+    """Return the mean, with the interval of Student's t over the clusters.
 
-    The interval is None for fewer than `FEWEST_RESAMPLED` values, or if none is asked for. For more
-    than `MOST_RESAMPLED` it is that of Student's t.
+    The interval is None for fewer than `FEWEST_CLUSTERS`, and if all clusters have the same mean.
     """
     sample = np.asarray(values, dtype=np.float64)
     if sample.size == 0:
         return UNKNOWN
-    mean = float(sample.mean())
-    if sample.size < FEWEST_RESAMPLED or not with_interval:
-        return Estimate(mean, None, None, sample.size)
-    if np.ptp(sample) == 0.0:
-        return Estimate(mean, mean, mean, sample.size)
-    low, high = _interval_of_mean(sample)
-    return Estimate(mean, low, high, sample.size)
-
-
-def mean_of_groups(values: Sequence[float] | Array, groups: Sequence[int] | IntArray) -> Estimate:
-    """Return the mean, with the interval of a bootstrap over groups of values that go together.
-
-    Whole groups are drawn again (Davison and Hinkley, Bootstrap Methods and their Application,
-    1997, section 3.8), so that values that depend on each other count as one. Where each value is a
-    group it is `mean_of`. The interval is None for fewer than `FEWEST_RESAMPLED` groups. `groups`
-    has the number of the group of each value, from 0 on without gaps.
-    """
-    sample = np.asarray(values, dtype=np.float64)
-    counts = np.bincount(np.asarray(groups, dtype=np.int64)).astype(np.float64)
-    if counts.size == sample.size:
-        return mean_of(sample)
-    mean = float(sample.mean())
-    if counts.size < FEWEST_RESAMPLED:
-        return Estimate(mean, None, None, sample.size)
-    sums = np.bincount(np.asarray(groups, dtype=np.int64), weights=sample).astype(np.float64)
-    low, high = _interval_of_ratio(sums, counts)
-    return Estimate(mean, low, high, sample.size)
-
-
-def median_of(values: Sequence[float] | Array) -> Estimate:
-    """Return the median, with the interval of a percentile bootstrap over the runs.
-
-    The interval is None for fewer than `FEWEST_RESAMPLED` values.
-    """
-    sample = np.asarray(values, dtype=np.float64)
-    if sample.size == 0:
-        return UNKNOWN
-    median = float(np.median(sample))
-    if sample.size < FEWEST_RESAMPLED:
-        return Estimate(median, None, None, sample.size)
-    low, high = _bootstrap(sample, np.median, "percentile")
-    return Estimate(median, low, high, sample.size)
+    return _ratio(sample, np.ones(sample.size), clusters)
 
 
 def rate_of(
-    counts: Sequence[float] | Array,
-    exposures: Sequence[float] | Array,
-    with_interval: bool = True,
+    counts: Sequence[float] | Array, exposures: Sequence[float] | Array, clusters: IntArray
 ) -> Estimate:
-    """Return a number of events by exposure, with the interval of a bootstrap over the runs.
+    """Return a number of events by exposure, with an interval as of `mean_of`, from 0 on.
 
-    Where nothing happened, the upper limit is that of a Poisson count of 0 (Garwood, 1936).
-    Otherwise the interval is None for fewer than `FEWEST_RESAMPLED` runs.
+    Where nothing happened, the upper limit is that of a Poisson count of 0 (Garwood, 1936), in the
+    exposure of one run a cluster.
     """
     events = np.asarray(counts, dtype=np.float64)
     whole = np.asarray(exposures, dtype=np.float64)
     total = float(whole.sum())
     if events.size == 0 or total <= 0.0:
         return UNKNOWN
-    rate = float(events.sum()) / total
-    if not with_interval or (events.size < FEWEST_RESAMPLED and rate > 0.0):
-        return Estimate(rate, None, None, events.size)
-    if rate == 0.0:
-        return Estimate(0.0, 0.0, -math.log((1.0 - CONFIDENCE) / 2.0) / total, events.size)
-    low, high = _interval_of_ratio(events, whole)
-    return Estimate(rate, low, high, events.size)
+    if not events.any():
+        exposure = total * len(np.unique(clusters)) / events.size
+        return Estimate(0.0, 0.0, -math.log((1.0 - CONFIDENCE) / 2.0) / exposure, events.size)
+    found = _ratio(events, whole, clusters)
+    low = None if found.low is None else max(found.low, 0.0)
+    return Estimate(found.value, low, found.high, found.n)
 
 
-def of_clusters(sums: Array, statistic: Callable[[Array], Array], n: int) -> Estimate:
-    """Return a statistic of sums over clusters, with the interval of a bootstrap over these.
+def sum_of_ratios(above: Array, below: Array, n: int) -> Estimate:
+    """Return the sum of ratios of sums over clusters, with the interval of Student's t.
+
+    Its standard error is that of the residuals of all ratios together (Cochran, Sampling
+    Techniques, 1977, section 6.4). The interval is None for fewer than `FEWEST_CLUSTERS`, and if
+    all clusters agree.
 
     Parameters
     ----------
-    sums
-        Of each cluster (row) the sums that the statistic is made of (columns).
-    statistic
-        Returns its value from the sums over all clusters, in the last axis.
+    above, below
+        Sums of each cluster (rows) for each ratio (columns).
     n
         Number of runs.
     """
-    if not n:
+    whole = below.sum(axis=0)
+    if not len(above) or not whole.all():
         return UNKNOWN
-    value = float(statistic(sums.sum(axis=0)))
-    if len(sums) < FEWEST_RESAMPLED or math.isnan(value):
+    ratios = above.sum(axis=0) / whole
+    value = float(ratios.sum())
+    residuals = ((above - ratios * below) / whole).sum(axis=1)
+    error = math.sqrt(len(above) / max(len(above) - 1, 1) * float((residuals**2).sum()))
+    if len(above) < FEWEST_CLUSTERS or error <= ROUNDING:
         return Estimate(value, None, None, n)
-    random = np.random.default_rng(SEED)
-    drawn = random.multinomial(len(sums), np.full(len(sums), 1.0 / len(sums)), RESAMPLES)
-    tails = (1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0
-    low, high = np.nanquantile(statistic(drawn @ sums), tails)
-    return Estimate(value, float(low), float(high), n)
+    half = _student(len(above)) * error
+    return Estimate(value, value - half, value + half, n)
 
 
-def _interval_of_ratio(above: Array, below: Array) -> tuple[float, float]:
-    """Return the interval of the ratio of two sums, by a bootstrap over their parts."""
-    random = np.random.default_rng(SEED)
-    drawn = random.multinomial(above.size, np.full(above.size, 1.0 / above.size), RESAMPLES)
-    tails = (1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0
-    low, high = np.quantile((drawn @ above) / (drawn @ below), tails)
-    return float(low), float(high)
+def median_of(values: Sequence[float] | Array, clusters: IntArray) -> Estimate:
+    """Return the median, with the interval of a percentile bootstrap over the clusters.
 
-
-def _interval_of_mean(sample: Array) -> tuple[float, float]:
-    from scipy.stats import t
-
-    if sample.size <= MOST_RESAMPLED:
-        return _bootstrap(sample, np.mean, "BCa")
-    error = float(sample.std(ddof=1)) / math.sqrt(sample.size)
-    low, high = t.interval(CONFIDENCE, sample.size - 1, float(sample.mean()), error)
-    return float(low), float(high)
-
-
-def _bootstrap(
-    sample: Array, statistic: Callable[..., Any], method: Literal["BCa", "percentile"]
-) -> tuple[float, float]:
+    The interval is None for fewer than `FEWEST_RESAMPLED` clusters.
+    """
     from scipy.stats import bootstrap
 
+    sample = np.asarray(values, dtype=np.float64)
+    if sample.size == 0:
+        return UNKNOWN
+    median = float(np.median(sample))
+    parts = [sample[clusters == one] for one in np.unique(clusters)]
+    if len(parts) < FEWEST_RESAMPLED:
+        return Estimate(median, None, None, sample.size)
+
+    def statistic(drawn: IntArray) -> float:
+        return float(np.median(np.concatenate([parts[one] for one in drawn])))
+
     found = bootstrap(
-        (sample,),
+        (np.arange(len(parts)),),
         statistic,
+        vectorized=False,
         n_resamples=RESAMPLES,
         confidence_level=CONFIDENCE,
-        method=method,
+        method="percentile",
         random_state=np.random.default_rng(SEED),
     ).confidence_interval
-    return float(found.low), float(found.high)
+    return Estimate(median, float(found.low), float(found.high), sample.size)
+
+
+def effective_number(values: Array, clusters: IntArray, weights: Array | None = None) -> float:
+    """Return how many independent values would give the mean of clusters of values as surely.
+
+    It is the variance of the values by the squared standard error of their mean, less what few
+    clusters know of that error (Korn and Graubard, Survey Methodology 24, 1998), and at most the
+    number of values. If each value is a cluster, or all clusters have the same mean, it is the
+    number of clusters.
+    """
+    from scipy.stats import norm
+
+    heavy = np.ones(values.size) if weights is None else weights
+    mean = float(np.average(values, weights=heavy))
+    variance = float(np.average((values - mean) ** 2, weights=heavy))
+    error = _standard_error(values * heavy, heavy, clusters)
+    number = len(np.unique(clusters))
+    if number == values.size or error <= ROUNDING:
+        return float(number)
+    certainty = norm.ppf((1.0 + CONFIDENCE) / 2.0) / _student(number)
+    return min(variance / error**2 * float(certainty) ** 2, float(values.size))
+
+
+def _ratio(above: Array, below: Array, clusters: IntArray) -> Estimate:
+    """Return the ratio of two sums, with the interval of Student's t over the clusters."""
+    ratio, number = float(above.sum() / below.sum()), len(np.unique(clusters))
+    error = _standard_error(above, below, clusters)
+    if number < FEWEST_CLUSTERS or error <= ROUNDING * abs(ratio):
+        return Estimate(ratio, None, None, above.size)
+    half = _student(number) * error
+    return Estimate(ratio, ratio - half, ratio + half, above.size)
+
+
+def _standard_error(above: Array, below: Array, clusters: IntArray) -> float:
+    """Return the standard error of the ratio of two sums over clusters that are drawn.
+
+    Cochran, Sampling Techniques, 1977, section 6.4. One cluster has none: it is 0.
+    """
+    numbered = np.unique(clusters, return_inverse=True)[1]
+    sums, counts = (np.bincount(numbered, weights=one) for one in (above, below))
+    if sums.size < 2:
+        return 0.0
+    residuals = sums - sums.sum() / counts.sum() * counts
+    variance = sums.size / (sums.size - 1) * float((residuals**2).sum())
+    return math.sqrt(variance) / float(counts.sum())
+
+
+def _student(clusters: int) -> float:
+    from scipy.stats import t
+
+    return float(t.ppf((1.0 + CONFIDENCE) / 2.0, clusters - 1))
+
+
+def _wilson(share: float, number: float) -> tuple[float, float]:
+    """Return Wilson's interval of a share of a number of values, which need not be whole."""
+    from scipy.stats import norm
+
+    z = float(norm.ppf((1.0 + CONFIDENCE) / 2.0))
+    middle = share + z**2 / (2.0 * number)
+    half = z * math.sqrt(share * (1.0 - share) / number + (z / (2.0 * number)) ** 2)
+    whole = 1.0 + z**2 / number
+    return max((middle - half) / whole, 0.0), min((middle + half) / whole, 1.0)

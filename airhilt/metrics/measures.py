@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from airhilt.metrics.estimates import UNKNOWN, Estimate, mean_of, rate_of, share_of
+from airhilt.metrics.estimates import UNKNOWN, Estimate, clusters_of, mean_of, rate_of, share_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -33,33 +33,35 @@ class Measure:
     @property
     def columns(self) -> list[str]:
         """Columns that the number is made of."""
-        return list(dict.fromkeys((self.column, "nominal", "duration_s")))
+        return list(dict.fromkeys((self.column, "nominal", "duration_s", "scenario", "seed")))
 
     @property
     def label(self) -> str:
         """Title with the unit, for an axis."""
         return f"{self.title} ({self.unit})"
 
-    def estimate(self, runs: DataFrame, with_interval: bool = True) -> Estimate:
+    def estimate(self, runs: DataFrame) -> Estimate:
         """Return the number over some runs of a table, in its unit.
 
         It is unknown if the table has no such column, or no values in it.
         """
-        estimate = self._estimate(runs, with_interval)
+        estimate = self._estimate(runs)
         return estimate.times(PERCENT) if self.unit == "%" else estimate
 
-    def _estimate(self, runs: DataFrame, with_interval: bool) -> Estimate:
+    def _estimate(self, runs: DataFrame) -> Estimate:
         if self.column not in runs.columns:
             return UNKNOWN
         if self.only_nominal:
             runs = runs[runs["nominal"].fillna(False).astype(bool)]
         values = runs[self.column].dropna()
+        known = runs.loc[values.index]
+        clusters = clusters_of(known["scenario"].to_numpy(), known["seed"].to_numpy())
         if self.kind == "share":
-            return share_of(values.to_numpy(dtype=np.bool_))
+            return share_of(values.to_numpy(dtype=np.bool_), clusters)
         if self.kind == "mean":
-            return mean_of(values.to_numpy(dtype=np.float64), with_interval)
-        hours = runs.loc[values.index, "duration_s"].to_numpy(dtype=np.float64) / HOUR_S
-        return rate_of(values.to_numpy(dtype=np.float64), hours, with_interval)
+            return mean_of(values.to_numpy(dtype=np.float64), clusters)
+        hours = known["duration_s"].to_numpy(dtype=np.float64) / HOUR_S
+        return rate_of(values.to_numpy(dtype=np.float64), hours, clusters)
 
 
 TIME_TO_FIRST_WARNING = Measure(
@@ -89,6 +91,35 @@ FIRST_DETECTION = Measure(
     "first_detection_range", "First detection range", "m", "mean", "first_detection_range_m"
 )
 RECALL = Measure("recall", "Recall of sightings", "%", "mean", "vision_recall")
+GO_AROUNDS = Measure("go_arounds", "Go-arounds", "per run", "mean", "costs_go_arounds")
+REJECTED_TAKEOFFS = Measure(
+    "rejected_takeoffs", "Rejected take-offs", "per run", "mean", "costs_rejected_takeoffs"
+)
+LEVEL_DEVIATION = Measure(
+    "level_deviation", "Off the planned level", "ft s", "mean", "costs_level_deviation_ft_s"
+)
+PATH_DEVIATION = Measure(
+    "path_deviation", "Off the planned path", "NM s", "mean", "costs_path_deviation_nm_s"
+)
+TRANSMISSIONS = Measure("transmissions", "Transmissions", "per run", "mean", "radio_transmissions")
+OCCUPIED = Measure("occupied", "Frequency occupied", "s", "mean", "radio_occupied_s")
+CLARIFICATIONS = Measure(
+    "clarifications", "Clarifications asked", "per run", "mean", "radio_clarifications"
+)
+ADVISORIES = Measure("advisories", "Advisories", "1/h", "per_hour", "advisories")
+ADVICE_SPOKEN = Measure("advice_spoken", "Advice spoken", "s", "mean", "costs_advice_spoken_s")
+COSTS = (
+    GO_AROUNDS,
+    REJECTED_TAKEOFFS,
+    LEVEL_DEVIATION,
+    PATH_DEVIATION,
+    TRANSMISSIONS,
+    OCCUPIED,
+    CLARIFICATIONS,
+    ADVISORIES,
+    ADVICE_SPOKEN,
+)
+"""What a run costs the people in it; what an assistant costs is the difference to a run without."""
 MEASURES = (
     TIME_TO_FIRST_WARNING,
     TIME_AFTER_WINDOW,
@@ -103,5 +134,6 @@ MEASURES = (
     WORD_ERRORS,
     FIRST_DETECTION,
     RECALL,
+    *COSTS,
 )
 """All of them, in the order in which pages show them."""

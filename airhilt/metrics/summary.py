@@ -114,6 +114,33 @@ class EquipmentSummary(_Part):
     alerts: list[AdvisorySummary]
 
 
+class Costs(_Part):
+    """What the run costs the people in it, whoever caused it, by the truth and the radio.
+
+    The radio has more: its transmissions, the time on the air, and clarifications.
+    """
+
+    go_arounds: int = Field(description="go-arounds, each aircraft as often as it begins one")
+    rejected_takeoffs: int = Field(
+        description="take-off rolls that were rejected, each aircraft as often as it rejects one"
+    )
+    level_deviation_ft_s: float = Field(
+        description="distance from the planned altitude, integrated over the time en route, of "
+        "all aircraft that begin the run en route; until the script gives them something else "
+        "than levels, tracks and speeds"
+    )
+    path_deviation_nm_s: float = Field(
+        description="likewise, lateral distance from the planned path; until the script gives them "
+        "something else than levels and speeds"
+    )
+    advisories_per_hour: float | None = Field(
+        description="advisories of any severity in an hour of simulated time"
+    )
+    advice_spoken_s: float = Field(
+        description="time for which advisories were spoken, on the frequency or aside from it"
+    )
+
+
 class PersonReaction(_Part):
     """Reaction of a person to one revision of an advisory; null where it does not apply."""
 
@@ -297,7 +324,15 @@ class RadioStatistics(RecognitionStatistics):
     hearing: dict[str, int] = Field(
         description="number of calls with this outcome with the listener whom they were for"
     )
+    occupied_s: float = Field(
+        description="time for which somebody was on the air, summed over the frequencies; calls at "
+        "the same time on one frequency count once"
+    )
     say_agains: int = Field(description="calls that ask for another to be said again")
+    clarifications: int = Field(
+        description='calls that ask for words again or for confirmation, such as "say again" and '
+        '"confirm"'
+    )
     repeats: int = Field(description="calls made again")
     by_snr: list[RecognitionStatistics] = Field(
         description="recognition by signal-to-noise ratio, if a run has more than one"
@@ -515,6 +550,7 @@ class Summary(_Part):
     equipment: list[EquipmentSummary] = Field(
         default=[], description="equipment of the world, which is no part of the assistant"
     )
+    costs: Costs
     people: list[PersonSummary] = Field(
         default=[], description="people at seats; empty if there are none"
     )

@@ -21,10 +21,11 @@ from airhilt.messages import (
     Modality,
     Recommendation,
     WorkerDescription,
+    is_match,
 )
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
-from airhilt.workers.pool import is_match, parse_output, require_open_key
+from airhilt.workers.pool import parse_output, require_open_key
 from airhilt.workers.protocol import Step, Worker, checked, described
 from airhilt.workers.samples import NAMES, sample_inputs
 

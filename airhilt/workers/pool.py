@@ -30,6 +30,7 @@ from airhilt.messages import (
     Transmission,
     TransmissionChunk,
     WorkerDescription,
+    is_match,
     worker_output,
 )
 from airhilt.sim import Director, Endpoint, Input, LatencySpec, Output, Policy, Server, StepRecord
@@ -248,14 +249,6 @@ def require_open_key(worker: str, key: str) -> None:
 def policy_of(key: str, policies: Mapping[str, Policy]) -> Policy | None:
     """Return the policy for ``key`` among patterns in which ``*`` stands for one chunk."""
     return next((policy for pattern, policy in policies.items() if is_match(key, pattern)), None)
-
-
-def is_match(key: str, pattern: str) -> bool:
-    """Return whether a key is one of a pattern in which ``*`` stands for one chunk."""
-    chunks, parts = key.split("/"), pattern.split("/")
-    return len(parts) == len(chunks) and all(
-        part in ("*", chunk) for part, chunk in zip(parts, chunks, strict=True)
-    )
 
 
 def parse_output(

@@ -17,6 +17,7 @@ from airhilt.metrics.columns import (
 from airhilt.metrics.summary import (
     AdvisorySummary,
     ClosestApproach,
+    Costs,
     LatencyStatistics,
     RadioStatistics,
     Summary,
@@ -27,8 +28,12 @@ NOT_MEASURED = LatencyStatistics.of([])
 RADIO: dict[str, Any] = {
     name: None for name in RadioStatistics.model_fields if name not in ("hearing", "by_snr")
 } | {"calls": 2, "words": 10, "wer": 0.25, "transmissions": 3, "blocked": 0, "repeats": 0,
-     "stuck_microphone": 0, "say_agains": 0, "by_snr": [],
+     "stuck_microphone": 0, "say_agains": 0, "occupied_s": 9.0, "clarifications": 0, "by_snr": [],
      "hearing": {"understood": 2}}  # fmt: skip
+COSTS = Costs(
+    go_arounds=1, rejected_takeoffs=0, level_deviation_ft_s=500.0, path_deviation_nm_s=2.0,
+    advisories_per_hour=30.0, advice_spoken_s=4.0,
+)  # fmt: skip
 VISION: dict[str, Any] = dict.fromkeys(VisionStatistics.model_fields) | {
     "latency": NOT_MEASURED, "by_size": [], "state": "on", "cause": "", "why_missed": "",
     "cameras": [], "first_detections": []}  # fmt: skip
@@ -43,7 +48,7 @@ def summary(**given: Any) -> Summary:
         "scenario": "s01a_tight_timing", "seed": 0, "assistant": "reference",
         "outcome": "finished", "duration_s": 120.0, "conflict_actors": ("AAL1", "DAL2"),
         "loss_of_separation": False, "nmac": False, "collision": False, "runway_incursions": [],
-        "nuisance_alerts": 0, "advisories": [], "radio": RADIO, "vision": VISION,
+        "nuisance_alerts": 0, "advisories": [], "costs": COSTS, "radio": RADIO, "vision": VISION,
         "latencies": {}, "inputs_dropped": {}, "modalities": {"adsb": "on"}, "ended_actors": {},
         "real_time_factor": 1.0, "cpu_s": 1.0,
     }  # fmt: skip
@@ -103,6 +108,7 @@ def test_models_within_models_and_stages_have_the_names_of_both() -> None:
     assert row["latencies_asr_p50_s"] == 1.5
     assert row["latencies_tts_p50_s"] is None
     assert row["radio_wer"] == 0.25
+    assert row["costs_level_deviation_ft_s"] == 500.0
     assert row["radio_hearing_understood"] == 2
     assert row["modalities_adsb"] == "on"
     assert not any("mine" in name for name in row)

@@ -15,6 +15,8 @@ RUNS = pd.DataFrame(
         "nuisance_alerts": pd.array([1, 5, 7, None], "Int64"),
         "duration_s": [1800.0, 1800.0, 3600.0, 7200.0],
         "avoided": pd.array([True, False, None, True], "boolean"),
+        "scenario": "s01a_one",
+        "seed": range(4),
     }
 )
 
@@ -34,19 +36,20 @@ TEN = pd.DataFrame(
         "nuisance_alerts": [0, 1, 2, 0, 3, 1, 0, 0, 5, 1],
         "lead_before_closest_approach_s": np.linspace(5.0, 60.0, 10) ** 1.2,
         "avoided": [True] * 7 + [False] * 3,
+        "scenario": [f"s01a_{number % 5}" for number in range(10)],
+        "seed": range(10),
     }
 )
 
 
-def test_each_number_has_the_interval_of_its_kind_unless_none_is_asked_for() -> None:
+def test_each_number_has_the_interval_of_its_kind_over_the_scenarios() -> None:
     """Shares in percent, rates by the hour."""
+    clusters = np.arange(10) % 5
     leads = TEN["lead_before_closest_approach_s"].to_numpy()
     alerts, hours = TEN["nuisance_alerts"].to_numpy(float), TEN["duration_s"].to_numpy() / 3600.0
-    assert LEAD.estimate(TEN) == mean_of(leads)
-    assert LEAD.estimate(TEN, with_interval=False) == mean_of(leads, with_interval=False)
-    assert NUISANCE.estimate(TEN) == rate_of(alerts, hours)
-    assert NUISANCE.estimate(TEN, with_interval=False) == rate_of(alerts, hours, False)
-    assert AVOIDED.estimate(TEN) == share_of([True] * 7 + [False] * 3).times(100.0)
+    assert LEAD.estimate(TEN) == mean_of(leads, clusters)
+    assert NUISANCE.estimate(TEN) == rate_of(alerts, hours, clusters)
+    assert AVOIDED.estimate(TEN) == share_of([True] * 7 + [False] * 3, clusters).times(100.0)
     for each in (LEAD, NUISANCE, AVOIDED):
         found = each.estimate(TEN)
         assert None not in (found.low, found.high)

@@ -11,7 +11,7 @@ from airhilt.metrics.paired import mcnemar, mean_difference, share_difference
 
 
 def alone(pairs: int) -> np.ndarray[Any, np.dtype[np.int64]]:
-    """Groups of one pair each."""
+    """Clusters of one pair each."""
     return np.arange(pairs)
 
 
@@ -44,14 +44,27 @@ def test_a_difference_of_shares_has_the_interval_of_agresti_and_min() -> None:
     )
 
 
-def test_many_pairs_of_one_seed_prove_no_more_than_one() -> None:
-    first, second, seeds = np.zeros(10, bool), np.ones(10, bool), np.zeros(10, np.int64)
-    assert mcnemar(first, second, seeds).p_value == 1.0
-    found = share_difference(first, second, seeds)
-    assert (found.value, found.low, found.high, found.n) == (1.0, None, None, 10)
+def test_many_pairs_of_one_cluster_prove_no_more_than_one() -> None:
+    first, second, cluster = np.zeros(10, bool), np.ones(10, bool), np.zeros(10, np.int64)
+    assert mcnemar(first, second, cluster).p_value == 1.0
+    found = share_difference(first, second, cluster)
+    one = share_difference(first[:1], second[:1], alone(1))
+    assert (found.value, found.low, found.high) == (1.0, one.low, one.high)
+    assert one.low is not None
+    assert one.low < 0.0
 
 
-def test_groups_of_alike_pairs_have_the_p_of_one_pair_each() -> None:
+def test_copies_of_pairs_do_not_narrow_the_interval_of_a_difference() -> None:
+    first, second = np.arange(12) < 2, np.arange(12) < 7
+    once = share_difference(first, second, alone(12))
+    thrice = share_difference(np.repeat(first, 3), np.repeat(second, 3), np.repeat(alone(12), 3))
+    assert once.low is not None
+    assert thrice.low is not None
+    assert thrice.low == pytest.approx(once.low, abs=0.1)
+    assert thrice.low <= once.low
+
+
+def test_clusters_of_alike_pairs_have_the_p_of_one_pair_each() -> None:
     once = np.arange(8)
     first, second = once < 1, once >= 2
     expected = mcnemar(first, second, once).p_value
@@ -70,27 +83,27 @@ def test_signs_that_are_drawn_come_close_to_all_of_them() -> None:
 @pytest.mark.parametrize(
     ("only_first", "only_second", "agree", "p_value"),
     [
-        (4, 0, 0, 2 / 16),  # 2 of the 16 ways to give four groups a sign.
+        (4, 0, 0, 2 / 16),  # 2 of the 16 ways to give four clusters a sign.
         (0, 4, 0, 2 / 16),
-        (4, 0, 3, 2 / 16),  # Groups that agree prove nothing.
+        (4, 0, 3, 2 / 16),  # Clusters that agree prove nothing.
         (3, 1, 0, 10 / 16),
         (2, 2, 1, 1.0),
     ],
 )
-def test_groups_that_depend_on_each_other_are_one_sign_each(
+def test_clusters_are_one_sign_each(
     only_first: int, only_second: int, agree: int, p_value: float
 ) -> None:
-    """Each group has two pairs, of which the second one agrees."""
+    """Each cluster has two pairs, of which the second one agrees."""
     first = np.array([True] * only_first + [False] * (only_second + agree))
     second = np.array([False] * only_first + [True] * only_second + [False] * agree)
     none = np.zeros(len(first), bool)
-    groups = np.repeat(np.arange(len(first)), 2)
+    clusters = np.repeat(np.arange(len(first)), 2)
     one, other = (np.column_stack((each, none)).ravel() for each in (first, second))
-    assert mcnemar(one, other, groups).p_value == pytest.approx(p_value)
+    assert mcnemar(one, other, clusters).p_value == pytest.approx(p_value)
 
 
 def test_what_was_seen_is_one_of_the_signs_that_are_drawn() -> None:
-    """40 groups that all differ alike: no draw is as far, and yet chance is not impossible."""
+    """40 clusters that all differ alike: no draw is as far, and yet chance is not impossible."""
     first = np.tile([True, False], 40)
     found = mcnemar(first, np.zeros(80, bool), np.repeat(np.arange(40), 2))
     assert found.p_value == pytest.approx(1.0 / (2**14 + 1))

@@ -28,7 +28,7 @@ from airhilt.messages import (
 )
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.derived import DERIVED
-from airhilt.metrics.plans import Plans
+from airhilt.metrics.plans import Plans, Start
 from airhilt.metrics.summary import Summary
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
@@ -74,7 +74,7 @@ def conflict(t_s: float, phase: str) -> ConflictTruth:
 
 def report(number: int) -> AdsbReport:
     """Return the first report of an actor: who warns must have been told of both."""
-    icao24 = SCENARIO.actors[number].icao24  # type: ignore[union-attr]  # aircraft
+    icao24 = SCENARIO.actors[number].icao24
     return AdsbReport.model_construct(**cast(Any, {"icao24": icao24, "t_adsb_in_ns": 0}))
 
 
@@ -280,7 +280,7 @@ def plans(*climbs: tuple[float, int], rate_fpm: int | None = 1_500) -> Plans:
     ]  # fmt: skip
     effective = [EffectiveLine(line, line, 0.0, (), frozenset()) for line in lines]
     usual_m_s = load_aircraft_type("c172p").speeds.climb_rate_fpm * FOOT_PER_MINUTE
-    return Plans(effective, planned_ends_ns(effective, TextRadio(160.0)), {"AA": usual_m_s})
+    return Plans(effective, planned_ends_ns(effective, TextRadio(160.0)), {"AA": Start(usual_m_s)})
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)

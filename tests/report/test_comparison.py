@@ -61,6 +61,26 @@ def test_two_assistants_are_paired_by_scenario_seed_and_parameters(tmp_path: Pat
     assert found_of(found, "time_to_first_warning").difference.value == -2.0
 
 
+def test_pairs_of_one_scenario_are_a_cluster_however_many_seeds_they_have(tmp_path: Path) -> None:
+    """Seven scenarios, of which the second assistant saves five, whatever the seed."""
+    widths = []
+    for seeds in (1, 6):
+        table = [
+            sweep_row(f"s01a_{name}", assistant, seed,
+                      avoided=assistant == "reference" and name < 5)
+            for name in range(7)
+            for assistant in ("paper", "reference")
+            for seed in range(seeds)
+        ]  # fmt: skip
+        folder = write_sweep(tmp_path / f"{seeds}", table)
+        found = sweeps(folder, assistants=("paper", "reference"))
+        assert (found.pairs, found.clusters) == (7 * seeds, 7)
+        difference = found_of(found, "avoided").difference
+        widths.append(difference.high - difference.low)
+        assert found_of(found, "avoided").test.p_value == pytest.approx(2 / 2**5)
+    assert widths[1] >= widths[0]
+
+
 def test_a_pair_in_which_one_has_no_value_is_left_out_and_counted(tmp_path: Path) -> None:
     one = rows("paper", range(3), time_to_first_warning_s=9.0)
     other = rows("reference", range(3), time_to_first_warning_s=8.0)

@@ -18,6 +18,7 @@ from airhilt.sweep.axes import listed
 from airhilt.sweep.engine import SweepObserver, SweepResult
 from airhilt.sweep.evaluation import ranking
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
+from airhilt.sweep.evaluation.costs import costs
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.presets import full, paper, recipients
@@ -50,7 +51,8 @@ def row(scenario: str = "s01a_one", seed: int = 0, **fields: Any) -> dict[str, A
         "advisories": 2, "cautions": 1, "warnings": 1, "latencies_asr_p50_s": 5.9,
         "latencies_vision_p50_s": None, "collision": False, "nmac": False,
         "loss_of_separation": False, "runway_incursion_category": None,
-        "first_detection_range_m": None,
+        "first_detection_range_m": None, "costs_go_arounds": 0, "costs_rejected_takeoffs": 0,
+        "radio_occupied_s": 20.0,
         **{f"first_warning_parts_{part}_s": 1.0 for part in PARTS}, **fields,
     }  # fmt: skip
 
@@ -328,6 +330,14 @@ def test_who_is_told_is_compared_over_the_same_runs_with_each_response_model() -
     )
     assert tables["harms_observed"].rows == ()
     assert cells(tables["ranking"], "reference, crew told")["index"].value == 1.0
+
+
+def test_what_an_assistant_costs_is_counted_against_the_same_run_without_one() -> None:
+    broken: dict[str, Any] = {"costs_go_arounds": 1, "costs_rejected_takeoffs": 1}
+    nobody = [row(seed=seed, costs_go_arounds=1) for seed in range(2)]
+    baselines = Baselines.of(nobody, [])
+    rows = [row(seed=0, radio_occupied_s=32.0, **broken), row(seed=1), row(seed=9, **broken)]
+    assert [cell.value for cell in costs(rows, baselines)] == [0.0, 6.0, 4.0]
 
 
 def test_one_response_model_alone_is_compared_if_it_is_chosen() -> None:

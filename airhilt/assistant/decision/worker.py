@@ -40,9 +40,10 @@ from airhilt.messages import (
     Transcript,
     Transmission,
     WorkerDescription,
+    is_match,
 )
 from airhilt.sim.worker import Input, Output
-from airhilt.workers.pool import is_match, require_open_key
+from airhilt.workers.pool import require_open_key
 from airhilt.workers.protocol import Step
 
 KEYS: dict[type[Message], str] = {

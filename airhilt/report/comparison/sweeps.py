@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from airhilt.errors import AirhiltError
-from airhilt.metrics.estimates import Estimate
+from airhilt.metrics.estimates import Estimate, clusters_of
 from airhilt.metrics.measures import HOUR_S, MEASURES, Measure
 from airhilt.metrics.paired import McNemar, mcnemar, mean_difference, share_difference
 from airhilt.report.sweeps.data import families_of
@@ -71,9 +71,9 @@ class SweepComparison:
     differing: dict[str, tuple[str, str]]
     """Columns in which the sides differ as a whole, with the value of each."""
     pairs: int
-    draws: int
-    """Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
-    other parameters, depend on each other and count as one group."""
+    clusters: int
+    """Number of scenarios that the pairs are of, of seeds if there is one scenario. Pairs of one
+    cluster depend on each other."""
     without_partner: tuple[int, int]
     """Number of runs of each side without a partner."""
     families: dict[str, list[MeasureDifference]]
@@ -114,7 +114,9 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
         paired_by=tuple(by),
         differing=differing,
         pairs=len(pairs),
-        draws=pairs.groupby(list(ALWAYS)).ngroups,
+        clusters=len(
+            np.unique(clusters_of(pairs["scenario"].to_numpy(), pairs["seed"].to_numpy()))
+        ),
         without_partner=(len(first.runs) - len(pairs), len(second.runs) - len(pairs)),
         families=_by_family(
             first.runs.iloc[pairs["row_first"]].reset_index(drop=True),
@@ -189,18 +191,18 @@ def _difference(measure: Measure, first: DataFrame, second: DataFrame) -> Measur
     first, second = first[both], second[both]
     before, after = (values[both].to_numpy(dtype=np.float64) for values in (ones, others))
     is_share = measure.kind == "share"
-    draws = first.groupby(list(ALWAYS)).ngroup().to_numpy(dtype=np.int64)
+    clusters = clusters_of(first["scenario"].to_numpy(), first["seed"].to_numpy())
     difference = (
-        share_difference(before > 0, after > 0, draws)
+        share_difference(before > 0, after > 0, clusters)
         if is_share
-        else mean_difference(before, after, draws)
+        else mean_difference(before, after, clusters)
     )
     return MeasureDifference(
         measure=measure,
         first=measure.estimate(first),
         second=measure.estimate(second),
         difference=difference.times(100.0 if measure.unit == "%" else 1.0),
-        test=mcnemar(before > 0, after > 0, draws) if is_share else None,
+        test=mcnemar(before > 0, after > 0, clusters) if is_share else None,
         one_sided=either - int(both.sum()),
     )
 

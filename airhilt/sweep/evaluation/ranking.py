@@ -12,14 +12,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import JsonValue
 
 from airhilt.engine_families import NONE
-from airhilt.metrics.estimates import Estimate, of_clusters, share_of
+from airhilt.metrics.estimates import Estimate, sum_of_ratios
 from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import CONTROLS, Assistant, shipped_scenarios
+from airhilt.sweep.evaluation.costs import COSTS, NOTE, costs
 from airhilt.sweep.evaluation.preset import Choice, Row
+from airhilt.sweep.evaluation.scores import Baselines
 from airhilt.sweep.evaluation.tables import Cell, Table, number, share
 from airhilt.sweep.specification import Specification
 
@@ -27,7 +28,7 @@ TWINS = "twins_"
 """Beginning of the names of the sweeps of nominal twins; the assistant's name follows."""
 COLUMNS = (
     "assistant", "index", "averted", "brought about", "twins undisturbed", "warning, s",
-    "nuisance, 1/h",
+    "nuisance, 1/h", *COSTS,
 )  # fmt: skip
 
 
@@ -92,28 +93,24 @@ def tried(rows: Mapping[str, Sequence[Row]]) -> dict[str, Tried]:
 
 
 def youden_index(tried: Tried, nobody: Sequence[Row]) -> Estimate:
-    """Return the index of an assistant, with the interval of a bootstrap over scenarios.
+    """Return the index of an assistant, with an interval by scenarios.
 
     ``nobody`` are the runs without an assistant, which are compared by scenario and seed.
     """
     was_lost = {scores.pair_of(row): bool(row["lost"]) for row in nobody}
     conflicts = [row for row in tried.conflicts if scores.pair_of(row) in was_lost]
     names = sorted({row["scenario"] for row in (*conflicts, *tried.twins)})
-    sums = np.zeros((len(names), 4))
+    above, below = np.zeros((len(names), 2)), np.zeros((len(names), 2))
     for row in conflicts:
-        lost = was_lost[scores.pair_of(row)]
-        sums[names.index(row["scenario"]), :2] += lost - bool(row["lost"]), lost
+        place = names.index(row["scenario"]), 0
+        above[place] += was_lost[scores.pair_of(row)] - bool(row["lost"])
+        below[place] += was_lost[scores.pair_of(row)]
     for row in tried.twins:
-        sums[names.index(row["scenario"]), 2:] += is_undisturbed(row), 1
-    return of_clusters(sums, _index, len(conflicts) + len(tried.twins))
-
-
-def _index(sums: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the index of sums of averted, lost, undisturbed and twins in the last axis."""
-    averted, lost, undisturbed, twins = np.moveaxis(sums, -1, 0)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        index: NDArray[np.float64] = averted / lost + undisturbed / twins - 1.0
-    return index
+        place = names.index(row["scenario"]), 1
+        above[place] += is_undisturbed(row)
+        below[place] += 1
+    found = sum_of_ratios(above, below, len(conflicts) + len(tried.twins))
+    return found.plus(-1.0)
 
 
 def is_undisturbed(twin: Row) -> bool:
@@ -123,19 +120,21 @@ def is_undisturbed(twin: Row) -> bool:
 
 def table(tried: Mapping[str, Tried], nobody: Sequence[Row]) -> Table:
     """Return the ranking of what was tried, by name, the highest index first."""
+    baselines = Baselines.of(nobody, ())
     indices = {name: youden_index(own, nobody) for name, own in tried.items()}
     in_order = sorted(tried, key=lambda name: _or_last(indices[name].value), reverse=True)
     return Table(
         name="ranking",
         title="Ranking",
         columns=COLUMNS,
-        rows=tuple((name, *_cells(tried[name], indices[name], nobody)) for name in in_order),
+        rows=tuple((name, *_cells(tried[name], indices[name], baselines)) for name in in_order),
         notes=(
             "Index: share of the conflicts averted, less those brought about, plus the share of "
             "nominal twins undisturbed, minus 1 (Youden). Averted: no harm to anybody, of the runs "
             "with harm without an assistant. Brought about: harm, of the others. Undisturbed: no "
             "alert and no harm in the same traffic without its conflict. `silent` and `cry_wolf` "
             "are negative controls. Each is ranked over the scenarios that it is made for.",
+            NOTE,
         ),
     )
 
@@ -144,18 +143,16 @@ def _or_last(index: float | None) -> float:
     return -math.inf if index is None or math.isnan(index) else index
 
 
-def _cells(tried: Tried, index: Estimate, nobody: Sequence[Row]) -> tuple[Cell, ...]:
-    was_lost = {scores.pair_of(row): row["lost"] for row in nobody}
-    ends = [
-        (was_lost[pair], row["lost"])
-        for row in tried.conflicts
-        if (pair := scores.pair_of(row)) in was_lost
-    ]
+def _cells(tried: Tried, index: Estimate, baselines: Baselines) -> tuple[Cell, ...]:
+    known = [row for row in tried.conflicts if scores.pair_of(row) in baselines.nobody]
+    lost = [row for row in known if baselines.nobody[scores.pair_of(row)]["lost"]]
+    others = [row for row in known if not baselines.nobody[scores.pair_of(row)]["lost"]]
     return (
         number(index, 2),
-        share(share_of([not lost for without, lost in ends if without])),
-        share(share_of([lost for without, lost in ends if not without])),
-        share(share_of([is_undisturbed(row) for row in tried.twins])),
+        share(scores.share_where(lost, lambda row: not row["lost"])),
+        share(scores.share_where(others, lambda row: bool(row["lost"]))),
+        share(scores.share_where(tried.twins, is_undisturbed)),
         number(scores.mean(tried.conflicts, "time_to_first_warning_s"), 1),
         number(scores.nuisance_per_hour(tried.twins)),
+        *costs(tried.conflicts, baselines),
     )

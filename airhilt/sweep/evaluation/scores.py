@@ -1,4 +1,4 @@
-"""Scores of groups of runs: shares with Wilson's interval, means with that of a bootstrap.
+"""Scores of groups of runs, with intervals by clusters of scenarios or seeds.
 
 A run is compared with another of the same scenario and seed: one without an assistant, or one with
 another assistant. docs/evaluation.md has the definitions.
@@ -10,7 +10,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from airhilt.metrics.estimates import Estimate, mean_of, rate_of, share_of
+from airhilt.metrics.estimates import (
+    Estimate,
+    IntArray,
+    clusters_of,
+    mean_of,
+    median_of,
+    rate_of,
+    share_of,
+)
 from airhilt.metrics.measures import HOUR_S
 from airhilt.sweep.evaluation.preset import Row
 
@@ -36,13 +44,13 @@ class Baselines:
     lost
         Runs without an assistant that ended with harm to the pair.
     nobody
-        All runs without an assistant.
+        Runs without an assistant.
     well_clear_s
         Time of the first warning of `well_clear`, where it gave one.
     """
 
     lost: frozenset[Pair]
-    nobody: frozenset[Pair]
+    nobody: Mapping[Pair, Row]
     well_clear_s: Mapping[Pair, float]
 
     @classmethod
@@ -50,7 +58,7 @@ class Baselines:
         """Return the baselines in runs without an assistant, and with `well_clear`."""
         return cls(
             frozenset(pair_of(row) for row in nobody if row["avoided"] is False),
-            frozenset(pair_of(row) for row in nobody),
+            {pair_of(row): row for row in nobody},
             {
                 pair_of(row): row["t_first_warning_s"]
                 for row in well_clear
@@ -69,19 +77,48 @@ def with_conflict(rows: Sequence[Row]) -> list[Row]:
     return [row for row in rows if row["nominal"] is False]
 
 
-def known(rows: Sequence[Row], column: str) -> list[Any]:
+def known(rows: Sequence[Row], column: str) -> list[Row]:
+    """Return the runs in which a column is not null."""
+    return [row for row in rows if row.get(column) is not None]
+
+
+def values(rows: Sequence[Row], column: str) -> list[Any]:
     """Return the values of a column that are not null."""
-    return [row[column] for row in rows if row.get(column) is not None]
+    return [row[column] for row in known(rows, column)]
 
 
 def share(rows: Sequence[Row], column: str) -> Estimate:
     """Return the share of runs in which a column is true, of those in which it is not null."""
-    return share_of(known(rows, column))
+    return share_of(values(rows, column), _clusters(known(rows, column)))
+
+
+def share_where(rows: Sequence[Row], is_so: Callable[[Row], bool]) -> Estimate:
+    """Return the share of runs of which something is so."""
+    return share_of([is_so(row) for row in rows], _clusters(rows))
 
 
 def mean(rows: Sequence[Row], column: str) -> Estimate:
     """Return the mean of a column over the runs in which it is not null."""
-    return mean_of(known(rows, column))
+    return mean_of(values(rows, column), _clusters(known(rows, column)))
+
+
+def median(rows: Sequence[Row], column: str) -> Estimate:
+    """Return the median of a column over the runs in which it is not null."""
+    return median_of(values(rows, column), _clusters(known(rows, column)))
+
+
+def mean_over(rows: Sequence[Row], number: Callable[[Row], float]) -> Estimate:
+    """Return the mean of a number over runs."""
+    return mean_of([number(row) for row in rows], _clusters(rows))
+
+
+def _clusters(rows: Sequence[Row]) -> IntArray:
+    return clusters_of([row["scenario"] for row in rows], [row["seed"] for row in rows])
+
+
+def _per_hour(rows: Sequence[Row], column: str) -> Estimate:
+    hours = [row["duration_s"] / HOUR_S for row in rows]
+    return rate_of([row[column] for row in rows], hours, _clusters(rows))
 
 
 def avoided(rows: Sequence[Row], baselines: Baselines) -> Estimate:
@@ -90,7 +127,8 @@ def avoided(rows: Sequence[Row], baselines: Baselines) -> Estimate:
     The runs are the same but for the assistant, so whatever is different came of it, also where
     its warning was over before the conflict began.
     """
-    return share_of([row["avoided"] is not False for row in rows if pair_of(row) in baselines.lost])
+    lost = [row for row in rows if pair_of(row) in baselines.lost]
+    return share_of([row["avoided"] is not False for row in lost], _clusters(lost))
 
 
 def harm_of(row: Row) -> str:
@@ -108,21 +146,36 @@ def harm_of(row: Row) -> str:
 
 def margin_over_well_clear(rows: Sequence[Row], baselines: Baselines) -> Estimate:
     """Return the mean time by which a warning came before that of `well_clear`, in s."""
-    return mean_of(
-        [
-            baselines.well_clear_s[pair_of(row)] - row["t_first_warning_s"]
-            for row in rows
-            if row["t_first_warning_s"] is not None and pair_of(row) in baselines.well_clear_s
-        ]
-    )
+    warned, others_s = known(rows, "t_first_warning_s"), baselines.well_clear_s
+    both = [row for row in warned if pair_of(row) in others_s]
+    return mean_over(both, lambda row: others_s[pair_of(row)] - row["t_first_warning_s"])
 
 
 def nuisance_per_hour(rows: Sequence[Row]) -> Estimate:
     """Return the nuisance alerts in an hour of nominal traffic, where they were counted."""
-    nominal = [row for row in rows if row["nominal"] is True and row["nuisance_alerts"] is not None]
-    return rate_of(
-        [row["nuisance_alerts"] for row in nominal], [row["duration_s"] / HOUR_S for row in nominal]
-    )
+    counted = known(rows, "nuisance_alerts")
+    return _per_hour([row for row in counted if row["nominal"] is True], "nuisance_alerts")
+
+
+def broken_off(row: Row) -> int:
+    """Return how many approaches and take-offs were broken off in a run."""
+    return int(row["costs_go_arounds"] + row["costs_rejected_takeoffs"])
+
+
+def occupied_s(row: Row) -> float:
+    """Return for how long somebody was on the air in a run."""
+    return float(row["radio_occupied_s"])
+
+
+def added(rows: Sequence[Row], baselines: Baselines, number: Callable[[Row], float]) -> Estimate:
+    """Return the mean of a number of runs less that of the runs without an assistant."""
+    paired = [row for row in rows if pair_of(row) in baselines.nobody]
+    return mean_over(paired, lambda row: number(row) - number(baselines.nobody[pair_of(row)]))
+
+
+def advisories_per_hour(rows: Sequence[Row]) -> Estimate:
+    """Return the advisories of any severity in an hour of the runs."""
+    return _per_hour(rows, "advisories")
 
 
 def followed_by_loss(
@@ -130,13 +183,10 @@ def followed_by_loss(
 ) -> Estimate:
     """Return the share of the advisories of a severity that are in runs with a loss.
 
-    Its number of runs is that of those with such an advisory. Advisories of one run share their
-    fate, so the interval is that of a bootstrap over runs; of runs that all end alike, Wilson's.
+    Its number of runs is that of those with such an advisory.
     """
     count = SEVERITIES[severity]
-    having = [(count(row), is_lost(row)) for row in rows if count(row)]
-    endings = [is_loss for _, is_loss in having]
-    if len(set(endings)) < 2:
-        return share_of(endings)
-    numbers = [number for number, _ in having]
-    return rate_of([number * is_loss for number, is_loss in having], numbers)
+    having = [row for row in rows if count(row)]
+    return share_of(
+        [is_lost(row) for row in having], _clusters(having), [count(row) for row in having]
+    )

@@ -82,6 +82,15 @@ class Leg:
         )
         return math.atan2(-right_north, right_east)
 
+    def distance_m(self, place: Place, *, is_last: bool) -> float:
+        """Return how far a place at sea level is from the leg; the last one goes on for ever."""
+        from_start = _minus(earth_centred(place), self._origin)
+        along_m = dot(from_start, _unit(_minus(self._end, self._origin)))
+        beyond_m = min(along_m, 0.0)
+        if not is_last:
+            beyond_m += max(along_m - self.length_m, 0.0)
+        return math.hypot(dot(from_start, self.right), beyond_m)
+
     def guide(self, state: AircraftState) -> Guide:
         """Return the position of the aircraft relative to the leg."""
         return Guide(

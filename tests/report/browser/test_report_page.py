@@ -228,6 +228,20 @@ def test_tiles_say_how_severe_the_incursion_was_and_what_had_failed(
     )
 
 
+def test_what_the_run_costs_people_is_told(page: Page, incursion: Path) -> None:
+    page.open(incursion)
+    costs = page.evaluate("document.getElementById('costs').textContent")
+    for text in (
+        "0 go-arounds",
+        "0 rejected take-offs",
+        "ft s",
+        "NM s",
+        "an hour",
+        "transmissions",
+    ):
+        assert text in costs
+
+
 def test_an_incursion_without_a_summary_is_told_without_a_category(
     page: Page, incursion: Path, tmp_path: Path
 ) -> None:

@@ -35,7 +35,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
                 series = {name: runs[runs["assistant"] == name] for name in sweep.assistants}
             if len(axis.levels) * len(series) > MOST_BARS:
                 continue
-            measures = [each for each in _measures(runs) if each.estimate(runs, False).n]
+            measures = [each for each in _measures(runs) if each.estimate(runs).n]
             if not measures:
                 continue
             name = figures.name_for("bars", axis.name, family)
@@ -45,9 +45,9 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
     return section_json(
         "ablation",
         "Comparison",
-        "Shares with Wilson's 95 % interval, rates with that of a bootstrap over the runs, if they "
-        "are 6 or more. Avoided is counted among the runs in which somebody was warned or the "
-        "conflict came about.",
+        "With 95 % intervals over the scenarios, or over the seeds of one scenario. "
+        "Avoided is counted among the runs in which somebody was warned or the conflict came "
+        "about.",
         found,
     )
 

@@ -54,8 +54,8 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
     return section_json(
         "curves",
         "Curves",
-        "Each point is over all runs with that value, with its 95 % interval: Wilson's for shares, "
-        "otherwise a bootstrap over the runs, if they are 6 or more.",
+        "Each point is over all runs with that value, with its 95 % interval over the "
+        "scenarios, or over the seeds of one scenario.",
         found,
     )
 

@@ -47,7 +47,7 @@ class _Cells:
         for row, level in enumerate(y.levels):
             down = y.among(runs, level)
             for column, here in enumerate(across):
-                found = measure.estimate(measured[here & down], with_interval=False)
+                found = measure.estimate(measured[here & down])
                 self.counts[row, column] = found.n
                 if found.value is not None:
                     self.values[row, column] = found.value

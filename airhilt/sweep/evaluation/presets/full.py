@@ -8,6 +8,7 @@ from itertools import product
 from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation import ranking, scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, REFERENCE, shipped_scenarios
+from airhilt.sweep.evaluation.costs import COSTS, NOTE, costs
 from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
@@ -62,10 +63,10 @@ def _given(choice: Choice) -> Mapping[str, str]:
 
 
 def tables(results: Results) -> Sequence[Table]:
-    """Return the tables: ranking, families, harms, severities, modalities, topologies, crews."""
+    """Return the tables: ranking, families, costs, harms, severities, modalities and others."""
     rows = results.rows
     baselines = Baselines.of(rows[NONE], rows["well_clear"])
-    makers = [_families, _harms, _severities, _modalities]
+    makers = [_families, _costs, _harms, _severities, _modalities]
     if TOPOLOGIES in rows:
         makers.append(_topologies)
     if CREWS in rows:
@@ -90,10 +91,25 @@ def _families(results: Results, baselines: Baselines) -> Table:
     )
 
 
+def _costs(results: Results, baselines: Baselines) -> Table:
+    rows = [
+        (family, each.name, *costs(own, baselines))
+        for family, each in product(_names(results), ASSISTANTS)
+        if (own := _of_family(results.rows[each.name], family))
+    ]
+    return Table(
+        name="costs",
+        title="What it costs people",
+        columns=("family", "assistant", *COSTS),
+        rows=tuple(rows),
+        notes=(NOTE,),
+    )
+
+
 def _notes(results: Results) -> Iterator[str]:
     yield (
-        "In brackets: 95 % interval (Wilson for shares, bootstrap over the runs for means and "
-        "rates). Avoided: no harm to the pair, of the runs in which it came to harm without an "
+        "In brackets: 95 % interval over the scenarios, or over the seeds of one scenario. "
+        "Avoided: no harm to the pair, of the runs in which it came to harm without an "
         "assistant. "
         "Nuisance: alerts in an hour of nominal traffic. A family that an assistant is not listed "
         "in does not apply to it: it is not made for it, or has nothing to read of the pair."

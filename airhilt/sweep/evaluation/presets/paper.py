@@ -10,11 +10,18 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from airhilt.cosim.latency_presets import ASR_S, TTS_S, VISION_S
 from airhilt.engine_families import NONE
-from airhilt.metrics.estimates import median_of
 from airhilt.sweep.evaluation import ranking
 from airhilt.sweep.evaluation.assistants import Assistant, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
-from airhilt.sweep.evaluation.scores import known, mean, share
+from airhilt.sweep.evaluation.scores import (
+    advisories_per_hour,
+    broken_off,
+    mean,
+    mean_over,
+    median,
+    share,
+    values,
+)
 from airhilt.sweep.evaluation.tables import NOTHING, Cell, Table, number
 from airhilt.sweep.evaluation.tables import share as share_cell
 from airhilt.sweep.specification import Specification
@@ -28,6 +35,7 @@ FIRST_DETECTION_M = 125.0
 GIVEN = "given by --latency"
 PARTS = ("speech", "recognition", "evidence", "decision", "voice")
 """Parts of the time to first warning (docs/metrics.md)."""
+COSTS = ("broken off", "advisories, 1/h")
 
 
 def specifications(choice: Choice) -> Mapping[str, Specification]:
@@ -100,22 +108,23 @@ def _rests_on_the_call_alone(row: Row) -> bool:
 def _compared(
     what: str, paper: float, rows: Sequence[Row], column: str, origin: str
 ) -> tuple[Cell, ...]:
-    values = known(rows, column)
+    runs = len(values(rows, column))
     digits = 0 if column.endswith("_m") else 2
     return (
         what,
         f"{paper:g}",
         number(mean(rows, column), digits),
-        number(median_of(values), digits),
-        len(values),
-        origin if values else "not measured",
+        number(median(rows, column), digits),
+        runs,
+        origin if runs else "not measured",
     )
 
 
 def _notes(choice: Choice) -> Iterator[str]:
     yield (
-        "In brackets: 95 % interval of a bootstrap over the runs. ASR and vision latency: the "
-        "median of each run. Latencies of stages are no results: the latency source draws them."
+        "In brackets: 95 % interval over the variants, or over the seeds of one. ASR and vision "
+        "latency: the median of each run. Latencies of stages are no results: the latency source "
+        "draws them."
     )
     if not choice.has_cameras:
         yield "Without cameras: vision and the first detection were not run."
@@ -126,11 +135,12 @@ def _variants(rows: Sequence[Row]) -> Table:
     return Table(
         name="variants",
         title="Time to first warning by variant, in s",
-        columns=("variant", "warned", "mean", "median", "before", *PARTS, "avoided"),
+        columns=("variant", "warned", "mean", "median", "before", *PARTS, "avoided", *COSTS),
         rows=tuple(_variant(name, own) for name, own in {**groups, "all": rows}.items()),
         notes=(
             "Before: share of the warnings that came before the conflict began. The five parts are "
-            "means. Avoided: of the runs in which somebody was warned, or the pair came to harm.",
+            "means. Avoided: of the runs in which somebody was warned, or the pair came to harm. "
+            "Broken off: go-arounds and rejected take-offs per run.",
         ),
     )
 
@@ -147,10 +157,12 @@ def _variant(name: str, rows: Sequence[Row]) -> tuple[Cell, ...]:
         name,
         f"{len(warned)} of {len(rows)}",
         number(mean(rows, column), 2),
-        number(median_of(known(rows, column)), 2),
+        number(median(rows, column), 2),
         f"{100.0 * early / len(warned):.0f} %" if warned else NOTHING,
         *(_plain(rows, f"first_warning_parts_{part}_s") for part in PARTS),
         share_cell(share(rows, "avoided")),
+        number(mean_over(rows, broken_off), 2),
+        number(advisories_per_hour(rows)),
     )
 
 
@@ -161,8 +173,8 @@ def _is_before(row: Row) -> bool:
 
 
 def _plain(rows: Sequence[Row], column: str) -> Cell:
-    values: Sequence[float] = known(rows, column)
-    return f"{sum(values) / len(values):.2f}" if values else NOTHING
+    found: Sequence[float] = values(rows, column)
+    return f"{sum(found) / len(found):.2f}" if found else NOTHING
 
 
 PRESET = Preset(

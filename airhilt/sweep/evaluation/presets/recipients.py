@@ -16,6 +16,7 @@ from airhilt.engine_families import NONE
 from airhilt.scenario.models.responses import ResponseModelName
 from airhilt.sweep.evaluation import ranking, scores
 from airhilt.sweep.evaluation.assistants import CONTROLS, REFERENCE, shipped_scenarios
+from airhilt.sweep.evaluation.costs import COSTS, NOTE, costs
 from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
@@ -137,9 +138,9 @@ def _families(results: Results, rows: Sequence[Row], baselines: Mapping[str, Bas
     return Table(
         name="recipients",
         title="Who is told",
-        columns=("family", "told", CREWS, "warned", "avoided", "lead, s", "nuisance, 1/h"),
+        columns=("family", "told", CREWS, "warned", "avoided", "lead, s", "nuisance, 1/h", *COSTS),
         rows=tuple(
-            (name, told, model, *_scores(own, baselines[model]))
+            (name, told, model, *_scores(own, baselines[model]), *costs(own, baselines[model]))
             for name, told, model, own in groups
         ),
         notes=tuple(_notes(results)),
@@ -165,8 +166,9 @@ def _notes(results: Results) -> Iterator[str]:
         f"Assistant: `{REFERENCE.name}`. Told: whom it tells. Crews: how people respond. Avoided: "
         "no harm to the pair, of the runs in which it came to harm without an assistant and with "
         "the same responses. Nuisance: alerts in an hour of nominal traffic. In brackets: 95 % "
-        "interval."
+        "interval over the scenarios, or over the seeds of one scenario."
     )
+    yield NOTE
     needing = " and ".join(NEED_CAMERAS)
     if results.choice.has_cameras:
         yield f"{needing} with cameras, on at most {MOST_SEEDS_WITH_CAMERAS} seeds."

@@ -1,0 +1,5 @@
+"""What the run costs the people in it, of the summary."""
+
+from airhilt.report.sections import Section
+
+SECTION = Section("costs", order=27, module=__file__)
