@@ -13,6 +13,8 @@ import pytest
 from airhilt.errors import AirhiltError
 from airhilt.host import library
 from airhilt.record.sweep_folder import SweepFolder
+from airhilt.report.evaluation.tables import render
+from airhilt.report.figures import Figures
 from airhilt.scenario import Scenario
 from airhilt.sweep.axes import listed
 from airhilt.sweep.engine import SweepObserver, SweepResult
@@ -21,7 +23,7 @@ from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.costs import costs
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
-from airhilt.sweep.evaluation.presets import full, paper, recipients
+from airhilt.sweep.evaluation.presets import full, paper, recipients, roc
 from airhilt.sweep.evaluation.ranking import Tried, youden_index
 from airhilt.sweep.evaluation.scores import (
     Baselines,
@@ -156,9 +158,45 @@ def test_the_highest_index_stands_first_in_the_ranking() -> None:
 
 
 def test_the_controls_are_in_every_preset() -> None:
-    for preset in (paper, full, recipients):
+    for preset in (paper, full, recipients, roc):
         names = preset.specifications(NO_CAMERAS).keys()
         assert {"silent", "cry_wolf", "twins_silent", "twins_cry_wolf"} <= names
+
+
+def test_thresholds_are_multiplied_wherever_an_assistant_has_them() -> None:
+    every = roc.specifications(NO_CAMERAS)
+    assert every["surf_a_x2"].options["assistant_config"] == {"caution_s": 60.0, "warning_s": 30.0}
+    assert every["paper_x0.5"].options["assistant_config"] == {"time_to_go_s": 4.0}
+    nested = every["twins_reference_x4"].options["assistant_config"]
+    assert nested["separation"]["warning_s"] == 240.0  # type: ignore[index, call-overload]
+    assert "assistant_config" not in every["reference"].options
+    assert "tcas_x2" not in every
+
+
+def test_what_is_missed_stands_against_what_disturbs_in_a_figure() -> None:
+    rows: dict[str, list[Row]] = {name: [] for name in roc.specifications(NO_CAMERAS)}
+    rows["none"] = list(NOBODY)
+    for factor, missed in ("_x0.5", 6), ("", 3), ("_x2", 0):
+        rows[f"surf_a{factor}"] = [
+            row(name, missed=place < missed) for place, name in enumerate(MANY)
+        ]
+        rows[f"twins_surf_a{factor}"] = [
+            row(name, nominal=True, nuisance_alerts=6 - missed) for name in MANY
+        ]
+    characteristic, ranked = roc.tables(Results(NO_CAMERAS, rows))
+    assert text(cells(characteristic, "surf_a", "1")["missed"]).startswith("3 of 8")
+    points = characteristic.curves.series["surf_a"] if characteristic.curves else ()
+    assert [(one.x.value, one.y.value) for one in points] == [
+        (0.0, 0.75),
+        (6.0, 0.375),
+        (12.0, 0.0),
+    ]
+    assert cells(ranked, "surf_a")["twins undisturbed"].value == 0.0
+    document = {
+        "preset": "roc", "seeds": 1, "options": {}, "sweeps": {},
+        "tables": [characteristic.model_dump(mode="json")],
+    }  # fmt: skip
+    assert "Nuisance alerts, 1/h" in render(document, Figures())
 
 
 # --- the paper ------------------------------------------------------------------------------

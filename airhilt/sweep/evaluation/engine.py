@@ -12,6 +12,7 @@ from typing import Any
 from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file, sha256
 from airhilt.report.evaluation.tables import render
+from airhilt.report.figures import Figures
 from airhilt.sweep.cases import cases
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
@@ -79,19 +80,20 @@ class Evaluation:
         }
 
     def write(self) -> None:
-        """Write ``evaluation.json``, ``evaluation.md`` and ``evaluation.html``.
+        """Write ``evaluation.json``, ``evaluation.md``, ``evaluation.html`` and its figures.
 
         Raises
         ------
         AirhiltError
             The disk takes no more.
         """
-        document = self.document()
+        document, figures = self.document(), Figures()
         texts = {
             "json": f"{json.dumps(document, indent=2)}\n",
             "md": self.markdown(),
-            "html": f"{render(document)}\n",
+            "html": f"{render(document, figures)}\n",
         }
+        figures.write(self.folder / "figures")
         try:
             for ending, text in texts.items():
                 replace_file(self.folder / f"evaluation.{ending}", text.encode())
