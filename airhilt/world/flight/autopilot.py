@@ -83,7 +83,7 @@ class Autopilot:
         self._lift_blend = tick_s / LIFT_ANGLE_LAG_S
         self._reference_blend = tick_s / SPEED_LAG_S
         self._vertical_rate_step = VERTICAL_ACCELERATION_M_S2 * tick_s
-        self._steady_law = PitchLaw(1.5, 0.05, 2.0, gains.pitch.attitude_per_s)
+        self._steady_law = PitchLaw(1.0, 0.02, 1.5, gains.pitch.attitude_per_s)
         flare = kind.landing.flare
         self._flare_law = PitchLaw(
             flare.climb,

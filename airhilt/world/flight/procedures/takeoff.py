@@ -138,33 +138,60 @@ class ClimbOut(FlightPhase):
         super().__init__(systems)
         self._line = line
         self._then = then
-        self._safety_speed = systems.kind.speeds.climb_safety_kt * KNOT
+        self._clean_up = CleanUp(systems)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Climb one tick."""
-        autopilot, airframe, then = self._systems.autopilot, self._systems.airframe, self._then
-        takeoff = self._systems.kind.takeoff
-        lever, airspeed = takeoff.lever, self._safety_speed + CLIMB_SPEED_MARGIN_M_S
+        systems, then = self._systems, self._then
         if state.vertical_rate_m_s > CLIMBING_M_S:
-            airframe.set_gear(0.0)
+            systems.airframe.set_gear(0.0)
         if then.vertical.captures(state):
-            airframe.clean_up()
+            systems.airframe.clean_up()
             return then.fly(state)
         lateral = then.lateral if state.height_agl_m > TURN_HEIGHT_M else self._line
-        if state.height_agl_m > ACCELERATION_HEIGHT_M:
-            lever = takeoff.climb_lever
-            reachable = state.calibrated_airspeed_m_s + ACCELERATION_LEAD_M_S
-            airspeed = max(airspeed, min(then.speed.airspeed(state), reachable))
-            if state.calibrated_airspeed_m_s > self._safety_speed + FLAPS_UP_MARGIN_M_S:
-                airframe.set_flaps(0.0)
-        autopilot.fly_on_pitch(
-            state,
-            lateral.turn_rate(state),
-            airspeed,
-            lever,
-            steepest_climb=GREATEST_PITCH - autopilot.level_angle_of_attack,
-        )
+        turn_rate = lateral.turn_rate(state)
+        if self._clean_up.is_due(state):
+            self._clean_up.fly(state, turn_rate, then.speed.airspeed(state))
+        else:
+            climb_on_pitch(
+                systems, state, turn_rate, self._clean_up.speed, systems.kind.takeoff.lever
+            )
         return self
+
+
+class CleanUp:
+    """The climb from the acceleration height: climb thrust, acceleration, flaps up."""
+
+    def __init__(self, systems: AircraftSystems) -> None:
+        self._systems = systems
+        self._safety_speed = systems.kind.speeds.climb_safety_kt * KNOT
+        self.speed = self._safety_speed + CLIMB_SPEED_MARGIN_M_S
+        """Calibrated airspeed of the climb before, in m/s."""
+        self._has_begun = False
+
+    def is_due(self, state: AircraftState) -> bool:
+        """Return whether the acceleration height has been reached."""
+        self._has_begun = self._has_begun or state.height_agl_m > ACCELERATION_HEIGHT_M
+        return self._has_begun
+
+    def fly(self, state: AircraftState, turn_rate: float, airspeed: float) -> None:
+        """Accelerate towards an airspeed for one tick."""
+        systems, flown = self._systems, state.calibrated_airspeed_m_s
+        if flown > self._safety_speed + FLAPS_UP_MARGIN_M_S:
+            systems.airframe.set_flaps(0.0)
+        asked = max(self.speed, min(airspeed, flown + ACCELERATION_LEAD_M_S))
+        climb_on_pitch(systems, state, turn_rate, asked, systems.kind.takeoff.climb_lever)
+
+
+def climb_on_pitch(
+    systems: AircraftSystems, state: AircraftState, turn_rate: float, airspeed: float, lever: float
+) -> None:
+    """Hold an airspeed with pitch, up to the greatest and never down, for one tick."""
+    autopilot = systems.autopilot
+    steepest = GREATEST_PITCH - autopilot.level_angle_of_attack
+    autopilot.fly_on_pitch(
+        state, turn_rate, airspeed, lever, steepest_climb=steepest, steepest_descent=0.0
+    )
 
 
 class RejectedTakeoff(FlightPhase):
@@ -198,8 +225,8 @@ class RejectedTakeoff(FlightPhase):
 class GoAround(FlightPhase):
     """Goes around, cleans up, and levels off into what follows; from a flare it may touch.
 
-    It climbs at the rate of what follows: autothrottles hold a rate of 1,000 to 2,000 ft/min (737
-    flight crew training manual, go-around).
+    Up to the acceleration height it climbs at the rate of what follows: autothrottles hold 1,000 to
+    2,000 ft/min (737 flight crew training manual, go-around).
     """
 
     name = "go_around"
@@ -209,32 +236,32 @@ class GoAround(FlightPhase):
         super().__init__(systems)
         self.may_touch = may_touch
         self._then = then
-        self._airspeed = systems.kind.speeds.climb_safety_kt * KNOT
-        self._lever = systems.kind.takeoff.lever
+        self._clean_up = CleanUp(systems)
         self._flown_s = 0.0
         self._stopped = False
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
         autopilot, airframe, then = self._systems.autopilot, self._systems.airframe, self._then
+        takeoff = self._systems.kind.takeoff
         turn_rate = then.lateral.turn_rate(state)
         self._flown_s += self._systems.tick_s
         if not self._stopped:
             rate, pull = state.vertical_rate_m_s, 0.0
             if self._flown_s > LEVERS_FIRST_S:
                 rate, pull = STOPPED_M_S, STOP_M_S2
-            autopilot.flare(state, turn_rate, rate, pull, self._lever, None)
+            autopilot.flare(state, turn_rate, rate, pull, takeoff.lever, None)
             if state.vertical_rate_m_s >= STOPPED_M_S:
                 self._stopped = True
                 airframe.set_gear(0.0)
+                airframe.set_flaps(takeoff.flaps)
             return self
         if then.vertical.captures(state):
             airframe.clean_up()
             return then.fly(state)
-        airspeed = self._airspeed
-        if state.height_agl_m > ACCELERATION_HEIGHT_M:
-            airframe.set_flaps(0.0)
-            airspeed = then.speed.target_m_s
-        rate = then.vertical.vertical_rate(state)
-        autopilot.fly(state, turn_rate, rate, airspeed, closely=True)
+        if self._clean_up.is_due(state):
+            self._clean_up.fly(state, turn_rate, then.speed.airspeed(state))
+        else:
+            rate = then.vertical.vertical_rate(state)
+            autopilot.fly(state, turn_rate, rate, self._clean_up.speed, closely=True)
         return self
