@@ -186,8 +186,13 @@ class CleanUp:
 def climb_on_pitch(
     systems: AircraftSystems, state: AircraftState, turn_rate: float, airspeed: float, lever: float
 ) -> None:
-    """Hold an airspeed with pitch, up to the greatest and never down, for one tick."""
+    """Hold an airspeed with pitch, up to the greatest and never down, for one tick.
+
+    Without one of its engines it does so at full thrust, which a crew may set then (FAA AC 25-13).
+    """
     autopilot = systems.autopilot
+    if systems.airframe.has_failed_engine():
+        lever = 1.0
     steepest = GREATEST_PITCH - autopilot.level_angle_of_attack
     autopilot.fly_on_pitch(
         state, turn_rate, airspeed, lever, steepest_climb=steepest, steepest_descent=0.0
