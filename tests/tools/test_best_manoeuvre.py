@@ -10,7 +10,7 @@ from airhilt.world.loading import load
 from best_manoeuvre import best_manoeuvres
 
 
-def test_who_acts_seven_and_a_half_seconds_after_the_mayday_cannot_keep_separation(
+def test_who_acts_7_and_a_half_seconds_after_the_mayday_cannot_keep_separation(
     tmp_path: Path,
 ) -> None:
     folder = airhilt.run(

@@ -30,7 +30,7 @@ ACCELERATION_HEIGHT_M = 1000.0 * FOOT
 """Height in m at which takeoff thrust becomes climb thrust, and the aircraft accelerates and cleans
 up. Not below 800 ft (FAA AC 91-53A; ICAO Doc 8168, volume III); 1,000 ft is usual."""
 ACCELERATION_LEAD_M_S = 5.0
-"""Lead of the commanded airspeed while the aircraft accelerates, in m/s: by the autopilot's law 0.04
+"""Lead of the commanded airspeed while the aircraft accelerates, in m/s: by the autopilot's law 4 %
 of its weight then accelerates it, and what thrust is left climbs (assumed)."""
 GREATEST_PITCH = 15.0 * DEGREE
 """Greatest pitch of a climb after takeoff, in rad: that which the flight directors of Boeings
