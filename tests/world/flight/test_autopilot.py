@@ -103,7 +103,7 @@ def test_with_little_load_the_angle_of_attack_says_nothing_about_level_flight(
     load_factor: float, is_learned: bool
 ) -> None:
     state = state_at(speed_m_s=120.0, pitch_rad=3.0 * DEGREE)
-    elevators = []
+    elevators: list[float] = []
     for angle_of_attack_deg in (3.0, 9.0):
         airframe = level(angle_of_attack=3.0 * DEGREE, elevator=-0.1)
         flying = autopilot(airframe, state)
