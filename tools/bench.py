@@ -5,7 +5,9 @@
     python tools/bench.py crowd             100 and 500 aircraft: CPU time of a simulated second
     python tools/bench.py terminal          2 aircraft, 2 vehicles and a deer at an airport
     python tools/bench.py airport           20 aircraft and 20 vehicles at an airport
-    python tools/bench.py procedures        every procedure, type and weather, over 20 seeds
+    python tools/bench.py procedures        climbs and go-arounds beside what is published, then
+                                            every procedure, type and weather, over 20 seeds;
+                                            exits 1 if a number is out of its range
     python tools/bench.py phraseology       calls that are read in a second on one core
     python tools/bench.py speech            what sound costs a call, and how late words come
     python tools/bench.py render            CPU time of a picture, with both renderers
@@ -30,7 +32,9 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import itertools
 import json
+import sys
 from collections.abc import Iterable
 from typing import Any
 
@@ -74,10 +78,11 @@ def main() -> None:
     parser.add_argument("--camera", action="store_true", help="pictures of a tower at the seat")
     given = parser.parse_args()
     if given.name == "procedures":
-        from benchmarks.procedures import rows
+        from benchmarks import procedures, published_flight
 
-        print_rows(rows(given.seeds), as_json=given.json)
-        return
+        rows = itertools.chain(published_flight.rows(), procedures.rows(given.seeds))
+        failed = [row.is_failed for row in print_rows(rows, as_json=given.json)]
+        sys.exit(1 if any(failed) else 0)
     if given.name == "seat":
         from benchmarks.seat import looks
 
@@ -113,15 +118,16 @@ def measured(name: str, bluesky_python: str) -> dict[str, float]:
     return numbers
 
 
-def print_rows(rows: Iterable[Any], *, as_json: bool) -> None:
-    """Print the rows of a benchmark, line by line as they are measured."""
+def print_rows(rows: Iterable[Any], *, as_json: bool) -> list[Any]:
+    """Print the rows of a benchmark, line by line as they are measured; return them."""
     done = []
     for row in rows:
-        done.append(row._asdict())
+        done.append(row)
         if not as_json:
             print(row, flush=True)
     if as_json:
-        print(json.dumps(done, indent=2))
+        print(json.dumps([row._asdict() for row in done], indent=2))
+    return done
 
 
 if __name__ == "__main__":

@@ -53,12 +53,14 @@ def test_their_words_come_back_and_are_taken_for_nobodys_clearance(folder: Path)
     assert not any(one["kind"] == "clarification" for one in advisories)
 
 
-def test_a_crew_acts_once_it_has_heard_it_to_the_end(folder: Path) -> None:
-    heard = messages(folder, "truth/hearing/AAL123")
-    told_ns = min(one["t_ns"] for one in heard if one["id"].startswith("advisory."))
+def test_a_crew_acts_once_it_has_heard_it_to_the_end(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    airhilt.run("s02a_headon", out=folder, advisory_channel="frequency", **HOW)
     reacts = [e for e in messages(folder, "truth/event") if e["kind"] == "pilot_reacts"]
-    assert reacts
-    assert min(event["t_ns"] for event in reacts if event["subject"] == "AAL123") > told_ns
+    for callsign in ("AAL123", "DAL456"):
+        heard = messages(folder, f"truth/hearing/{callsign}")
+        told_ns = min(one["t_ns"] for one in heard if one["id"].startswith("advisory."))
+        assert min(event["t_ns"] for event in reacts if event["subject"] == callsign) > told_ns
 
 
 @pytest.mark.slow

@@ -172,7 +172,7 @@ def deaf_crews() -> Scenario:
         "radio": {"controller": tower, "lines": [
             clearance("land", 1, "JBU7", "JetBlue seven, runway two eight right, cleared to land.",
                       action="land", runway="28R"),
-            clearance("go", 29, "NKS5",
+            clearance("go", 25.5, "NKS5",
                       "Spirit wings five, runway zero one right, cleared for takeoff.",
                       action="take_off", runway="01R"),
         ]},

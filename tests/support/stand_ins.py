@@ -17,6 +17,7 @@ class StandIn:
     """
 
     wheelbase_m = 15.0
+    level_angle_of_attack = 0.0
 
     def __init__(self, **answers: float) -> None:
         self.answers = answers

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import sys
 
+import pytest
+
 from airhilt.scenario.seats import seats_of
 from airhilt.world.checks import check
+from benchmarks import published_flight
 from benchmarks.process_tree import cpu_s
 from benchmarks.seat import sector_scenario
 from benchmarks.soak import soak_scenario
 from benchmarks.traffic import crowd_scenario, fifty_scenario
+from breadth import mostly_slow
 
 
 def test_the_scenario_of_a_crowd_is_one_that_flies() -> None:
@@ -41,3 +45,8 @@ def test_the_cpu_time_of_a_command_is_also_that_of_what_outlives_it() -> None:
     waits = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {busy!r}])"
     assert cpu_s([sys.executable, "-c", leaves]) > 0.4
     assert cpu_s([sys.executable, "-c", waits]) > 0.4
+
+
+@pytest.mark.parametrize("name", mostly_slow([*published_flight.PUBLISHED], "737"))
+def test_climbs_and_go_arounds_are_flown_as_they_are_published(name: str) -> None:
+    assert [str(row) for row in published_flight.rows([name]) if row.is_failed] == []

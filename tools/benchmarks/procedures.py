@@ -98,6 +98,11 @@ class Row(NamedTuple):
     failed: tuple[str, ...]
     """The measurements that exceed their criteria, or why a flight ended."""
 
+    @property
+    def is_failed(self) -> bool:
+        """True if a measurement exceeds its criterion, or a flight ended."""
+        return bool(self.failed)
+
     def __str__(self) -> str:
         """Return the line of the table."""
         numbers = "  ".join(f"{name} {value:.1f}" for name, value in self.worst.items())

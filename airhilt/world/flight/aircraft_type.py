@@ -27,6 +27,8 @@ Degrees = Annotated[Number, Field(gt=0, le=90)]
 """Angle between two parts of an aircraft, or to the ground, in degrees."""
 DegreesPerS = Annotated[Number, Field(gt=0, le=180)]
 """Rate of turning about an axis, in degrees/s."""
+Lever = Annotated[Number, Field(gt=0, le=1)]
+"""Position of the throttle levers; 1 is the model's full thrust."""
 DistanceM = Annotated[Number, Field(gt=0, le=100_000)]
 """Distance over the ground, in m."""
 DecelerationMS2 = Annotated[Number, Field(gt=0, le=50)]
@@ -176,10 +178,19 @@ class Landing(_Section):
 
 
 class Takeoff(_Section):
-    """Configuration and rotation."""
+    """Configuration, thrust and rotation.
+
+    The levers are those at which the JSBSim models climb as published. Jets take off with reduced
+    thrust: a derate, and up to a quarter less for an assumed temperature (FAA AC 25-13). The models
+    of the Cessnas have more power, or less weight, than the aircraft of the handbooks.
+    """
 
     flaps: Share
     """Part of the model's full deflection."""
+    lever: Lever
+    """Throttle lever of the takeoff, up to the acceleration height."""
+    climb_lever: Lever
+    """Throttle lever of the climb above that."""
     pitch_deg: Degrees
     """Pitch after the rotation, below the pitch at which the tail touches."""
     pitch_rate_deg_s: DegreesPerS

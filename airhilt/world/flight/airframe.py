@@ -67,6 +67,7 @@ class Airframe:
         self._seed = seed
         self._wheels_on_ground_m = terrain_elevation_m + kind.dimensions.wheel_height_offset_m
         self._engines = fdm.get_propulsion().get_num_engines()
+        self._failed_engines = 0
         fdm.set_dt(step_s)
         fdm["ic/terrain-elevation-ft"] = terrain_elevation_m / FOOT
 
@@ -309,10 +310,15 @@ class Airframe:
         ``set-running`` alone does not: the engine starts again.
         """
         fdm = self._fdm
+        self._failed_engines += 1
         fdm["propulsion/active_engine"] = engine
         fdm["propulsion/cutoff_cmd"] = 1
         fdm["propulsion/magneto_cmd"] = 0
         fdm["propulsion/active_engine"] = -1
+
+    def has_failed_engine(self) -> bool:
+        """Return whether an engine has been stopped for good."""
+        return self._failed_engines > 0
 
     def set_throttle(self, lever: float) -> None:
         """Set the throttle levers of all engines (0..1)."""

@@ -41,6 +41,9 @@ ROTATION_PER_S = 2.0
 """Pitch rate per error of pitch while the nose is lifted, in 1/s."""
 MAXIMUM_CLIMB_ANGLE = 15.0 * DEGREE
 """Greatest climb or descent angle that airspeed control asks for, in rad."""
+VERTICAL_ACCELERATION_M_S2 = 0.25 * STANDARD_GRAVITY
+"""Greatest vertical acceleration to a new vertical rate, in m/s2: that of the standard pilot who
+follows a resolution advisory (ICAO Annex 10, volume IV, 4.4.2.6)."""
 SPEED_BAND = 0.08
 """Airspeed error, as a part of the commanded one, beyond which the climb angle yields once the
 lever is at its stop."""
@@ -79,7 +82,8 @@ class Autopilot:
         self._energy_blend = tick_s / ENERGY_LAG_S
         self._lift_blend = tick_s / LIFT_ANGLE_LAG_S
         self._reference_blend = tick_s / SPEED_LAG_S
-        self._steady_law = PitchLaw(0.5, 0.05, 0.0, gains.pitch.attitude_per_s)
+        self._vertical_rate_step = VERTICAL_ACCELERATION_M_S2 * tick_s
+        self._steady_law = PitchLaw(1.0, 0.02, 1.5, gains.pitch.attitude_per_s)
         flare = kind.landing.flare
         self._flare_law = PitchLaw(
             flare.climb,
@@ -117,6 +121,7 @@ class Autopilot:
         self._lever = airframe.throttle()
         self._lever_integral = self._lever - self._gains.thrust.climb_angle * climb
         self._reference_airspeed = state.calibrated_airspeed_m_s
+        self._reference_climb = climb
 
     @property
     def lever(self) -> float:
@@ -127,6 +132,11 @@ class Autopilot:
     def potential_climb(self) -> float:
         """The climb angle (rad) that the thrust can keep at the present airspeed."""
         return self._potential_climb
+
+    @property
+    def level_angle_of_attack(self) -> float:
+        """Angle of attack (rad) that carries the weight with level wings."""
+        return self._lift_angle + self._zero_lift_angle
 
     def steady_elevator(self) -> float:
         """Return the elevator (-1..1) without what it does against the errors of this instant."""
@@ -145,11 +155,15 @@ class Autopilot:
 
         ``closely`` is true to follow the vertical rate as closely as in a flare.
         """
-        climb_angle = vertical_rate / state.true_airspeed_m_s
+        speed = state.true_airspeed_m_s
+        before = self._reference_climb
+        wanted = within(vertical_rate / speed, MAXIMUM_CLIMB_ANGLE)
+        self._reference_climb += within(wanted - before, self._vertical_rate_step / speed)
+        climb_rate = (self._reference_climb - before) / self._tick
         self._sense_energy(state, airspeed)
-        climb_angle = self._hold_airspeed(state, climb_angle, airspeed)
+        climb_angle = self._hold_airspeed(state, self._reference_climb, airspeed)
         law = self._flare_law if closely else self._steady_law
-        self._set_elevator(state, climb_angle, 0.0, law)
+        self._set_elevator(state, climb_angle, climb_rate, law)
         self._set_aileron(state, turn_rate)
         self._set_rudder(state, self._airframe.sideslip())
 
@@ -241,7 +255,6 @@ class Autopilot:
 
     def _hold_airspeed(self, state: AircraftState, climb_angle: float, airspeed: float) -> float:
         """Set the lever; return the climb angle, or what of it the engines can keep."""
-        climb_angle = within(climb_angle, MAXIMUM_CLIMB_ANGLE)
         lever = self._lever
         if lever >= 1.0:
             excess = SPEED_BAND * airspeed - self._shortfall
@@ -267,11 +280,12 @@ class Autopilot:
         return climb_angle
 
     def _move_lever(self, state: AircraftState, climb_angle: float, lever: float) -> None:
-        """Move the lever to where it shall stand, ready to hold the airspeed from there."""
+        """Move the lever to where it shall stand, ready to hold airspeed and climb from there."""
         self._lever += within(lever - self._lever, self._lever_step)
         self._airframe.set_throttle(self._lever)
         self._lever_integral = self._lever - self._gains.thrust.climb_angle * climb_angle
         self._reference_airspeed = state.calibrated_airspeed_m_s
+        self._reference_climb = state.vertical_rate_m_s / state.true_airspeed_m_s
 
     def _set_elevator(
         self, state: AircraftState, climb_angle: float, climb_rate: float, law: PitchLaw

@@ -7,7 +7,13 @@ from collections.abc import Sequence
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT_PER_MINUTE, KNOT, wrap_angle
 from airhilt.world.flight.curves import Curve
-from airhilt.world.flight.guidance import CurvedPath, GuidanceModes, LateralMode, Route
+from airhilt.world.flight.guidance import (
+    Altitude,
+    CurvedPath,
+    GuidanceModes,
+    LateralMode,
+    Route,
+)
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.taxi import Standing
@@ -43,7 +49,9 @@ class FlightControl:
         self.phase: FlightPhase
         self._route: Route | None = None
         if isinstance(initial, OnGround):
-            self.guidance = self.climb_on(modes.track(initial.heading_rad), self.state.altitude_m)
+            self.guidance = self.climb_on(
+                modes.track(initial.heading_rad), modes.steepest_climb(self.state.altitude_m)
+            )
             self.phase = Standing(systems, "lined_up" if initial.lined_up else "standing")
         else:
             self.phase = self.guidance = EnRoute(
@@ -130,12 +138,9 @@ class FlightControl:
         """True if a main wheel carries weight."""
         return self.systems.airframe.on_ground()
 
-    def climb_on(self, lateral: LateralMode, altitude_m: float) -> EnRoute:
-        """Return the modes of a climb to an altitude at the slowest clean airspeed."""
-        modes = self.modes
-        return EnRoute(
-            self.systems, lateral, modes.steepest_climb(altitude_m), modes.clean_climb_speed()
-        )
+    def climb_on(self, lateral: LateralMode, vertical: Altitude) -> EnRoute:
+        """Return the modes of a climb at the slowest clean airspeed."""
+        return EnRoute(self.systems, lateral, vertical, self.modes.clean_climb_speed())
 
     def commanded(self) -> EnRoute:
         """Return the modes that a command changes; end a procedure that they do not lead out of."""

@@ -249,9 +249,9 @@ class GuidanceModes:
         return Altitude(clearance, self.kind.gains.guidance.altitude_per_s)
 
     def altitude_at_usual_rate(self, altitude_m: float) -> Altitude:
-        """Return the mode that flies to an altitude at the rate for which none was asked."""
+        """Return the mode that flies to an altitude, the ceiling at most, at the usual rate."""
         rate = self.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
-        return self.altitude(AltitudeClearance(altitude_m, rate))
+        return self.altitude(AltitudeClearance(self._below_ceiling(altitude_m), rate))
 
     def steepest_climb(self, altitude_m: float) -> Altitude:
         """Return the mode that climbs to an altitude, the ceiling at most, at the greatest rate."""

@@ -95,7 +95,7 @@ class ProcedureCommands:
         require_lined_up(control.state, line)
         control.require_climb(climb_to_m)
         after = line if track_rad is None else control.modes.track(track_rad)
-        control.guidance = control.climb_on(after, climb_to_m)
+        control.guidance = control.climb_on(after, control.modes.steepest_climb(climb_to_m))
         control.phase = TakeoffRoll(control.systems, line, control.guidance)
 
     def reject_takeoff(self) -> None:
@@ -191,7 +191,9 @@ class ProcedureCommands:
         if not isinstance(phase, Approach | Orbit | Glide | Flare) or control.on_ground:
             raise ValueError(f"go_around in phase {phase.name}; expected glide or flare")
         control.require_climb(climb_to_m)
-        control.guidance = control.climb_on(phase.final, climb_to_m)
+        control.guidance = control.climb_on(
+            phase.final, control.modes.altitude_at_usual_rate(climb_to_m)
+        )
         control.phase = GoAround(
             control.systems, control.guidance, may_touch=isinstance(phase, Flare)
         )
@@ -209,7 +211,7 @@ class ProcedureCommands:
         airframe = control.systems.airframe
         airframe.set_speed_brakes(0.0)
         airframe.set_ground_spoilers(0.0)
-        control.guidance = control.climb_on(phase.final, climb_to_m)
+        control.guidance = control.climb_on(phase.final, control.modes.steepest_climb(climb_to_m))
         control.phase = TakeoffRoll(control.systems, phase.final, control.guidance)
 
     def _approach(self, final: Final, exit_path: Sequence[Place]) -> None:

@@ -367,7 +367,7 @@ def test_it_goes_around_from_the_flare_too(kind: str, wheels_ft: int) -> None:
     flight.fly(120, lambda aircraft: aircraft.main_wheel_height_m < wheels_ft * FOOT)
     told(flight, "go_around").fly(60.0)
     assert flight.aircraft.ended is None
-    assert flight.aircraft.state.altitude_m > 800 * FOOT
+    assert flight.aircraft.state.altitude_m > 400 * FOOT
     assert flight.crew.bound_runway is None
 
 

@@ -121,6 +121,7 @@ LIMITS: dict[tuple[float, float, bool, bool], tuple[str, ...]] = {
     ),
     (0.0, 1.0, True, False): ("idle_height_part", "takeoff.pull"),
     (0.0, 1.0, True, True): (".flaps",),
+    (0.0, 1.0, False, True): ("lever",),
 }  # fmt: skip
 
 

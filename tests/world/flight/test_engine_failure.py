@@ -59,7 +59,7 @@ def test_a_go_around_goes_on_with_one_engine() -> None:
     aircraft.procedures.go_around(900.0)
     *_, _ = states(aircraft, 10)
     aircraft.fail_engine(0)
-    low = min(state.height_agl_m for state in states(aircraft, 200))
+    low = min(state.height_agl_m for state in states(aircraft, 300))
     assert aircraft.ended is None
     assert low > 20.0
     assert aircraft.state.altitude_m == pytest.approx(900.0, abs=20.0)

@@ -30,8 +30,7 @@ def test_from_50_ft_it_climbs_away_without_touching(name: str, air: Atmosphere) 
         assert not aircraft.on_ground
         assert aircraft._airframe.main_wheel_height_m(state) > 15 * FOOT
     assert aircraft.ended is None
-    climbed = state.altitude_m
-    assert climbed > 400.0
+    assert state.altitude_m > 350.0
     assert abs(wrap_angle(state.track_rad - RUNWAY.course_rad)) < 5 * DEGREE
 
 

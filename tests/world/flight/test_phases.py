@@ -75,7 +75,7 @@ def test_takeoff_thrust_is_set_within_seconds_and_not_at_once() -> None:
         phase = phase.fly(along(60.0, speed_m_s=20.0))
         levers += systems.airframe.got["set_throttle"]
     assert max(levers[: round(1.0 / TICK_S)]) < 0.4
-    assert levers[round(6.0 / TICK_S)] == 1.0
+    assert levers[round(6.0 / TICK_S)] == B737.takeoff.lever
     assert levers == sorted(levers)
 
 
@@ -95,9 +95,9 @@ def test_climbing_it_takes_the_gear_up() -> None:
 
 @pytest.mark.parametrize(
     ("above_v2_kt", "altitude_m", "retracts"),
-    [(19.0, 200.0, False), (21.0, 200.0, True), (21.0, 100.0, False)],
+    [(19.0, 310.0, False), (21.0, 310.0, True), (21.0, 300.0, False)],
 )
-def test_flaps_come_in_20_kt_above_v2_and_400_ft_above_the_ground(
+def test_flaps_come_in_20_kt_above_v2_and_1000_ft_above_the_ground(
     above_v2_kt: float, altitude_m: float, retracts: bool
 ) -> None:
     got = climbed_out(V2_KT + above_v2_kt, altitude_m).airframe.got
@@ -113,7 +113,7 @@ def test_the_climb_out_begins_35_ft_above_the_runway(height_m: float, name: str)
     assert Rotate(systems.all, FINAL, systems.en_route(), state).fly(state).name == name
 
 
-def test_the_rotation_pulls_to_the_pitch_of_the_type_at_full_thrust() -> None:
+def test_the_rotation_pulls_to_the_pitch_and_at_the_thrust_of_the_type() -> None:
     systems, takeoff = Systems(), B737.takeoff
     state = along(1_500.0, speed_m_s=80.0)
     rotating = Rotate(systems.all, FINAL, systems.en_route(), state)
@@ -123,7 +123,7 @@ def test_the_rotation_pulls_to_the_pitch_of_the_type_at_full_thrust() -> None:
     assert (pitch, pitch_rate) == pytest.approx(
         (math.radians(takeoff.pitch_deg), math.radians(takeoff.pitch_rate_deg_s))
     )
-    assert lever == 1.0
+    assert lever == takeoff.lever
     assert turn_rate == pytest.approx(FINAL.turn_rate(state))
     assert "follow_line" not in systems.ground.got
 
@@ -149,17 +149,33 @@ def test_it_rotates_at_the_speed_of_the_type(below_kt: float, name: str) -> None
 
 
 @pytest.mark.parametrize("over_kt", [0.0, 5.0, -5.0])
-def test_below_400_ft_it_climbs_on_the_runway_at_v2_and_10_kt(over_kt: float) -> None:
-    """What is too fast takes the lever back by a twentieth for each m/s."""
-    speed_kt = V2_KT + 10.0 + over_kt
-    systems = climbed_out(speed_kt, 121.0)
-    state, turn_rate, airspeed, lever = systems.autopilot.got["fly_on_pitch"]
+def test_below_1000_ft_it_climbs_at_v2_and_10_kt_with_takeoff_thrust(over_kt: float) -> None:
+    """With a pitch of 15 degrees at most, and never down."""
+    systems = Systems()
+    systems.autopilot.level_angle_of_attack = 6.0 * DEGREE
+    climbing = ClimbOut(systems.all, FINAL, systems.en_route())
+    speed_m_s = (V2_KT + 10.0 + over_kt) * KNOT
+    climbing.fly(along(3_000.0, speed_m_s=speed_m_s, altitude_m=304.0, rate_m_s=8.0))
+    _, _, airspeed, lever = systems.autopilot.got["fly_on_pitch"]
     assert airspeed == pytest.approx((V2_KT + 10.0) * KNOT)
-    assert lever == pytest.approx(1.0 - 0.05 * max(over_kt, 0.0) * KNOT)
-    assert turn_rate == FINAL.turn_rate(state)
+    assert lever == B737.takeoff.lever
+    limits = systems.autopilot.named["fly_on_pitch"]
+    assert limits == pytest.approx({"steepest_climb": 9.0 * DEGREE, "steepest_descent": 0.0})
 
 
-def test_above_400_ft_it_accelerates_to_the_clean_speed_and_turns_as_it_is_told() -> None:
+def test_above_1000_ft_it_accelerates_to_the_clean_speed_with_climb_thrust() -> None:
+    """The airspeed that it asks for is 5 m/s ahead of its own."""
+    systems = Systems()
+    climbing = ClimbOut(systems.all, FINAL, systems.en_route())
+    clean_m_s = B737.speeds.minimum_clean_kt * KNOT
+    for speed_m_s, asked_m_s in ((85.0, 90.0), (100.0, clean_m_s)):
+        climbing.fly(along(3_000.0, speed_m_s=speed_m_s, altitude_m=306.0, rate_m_s=8.0))
+        _, _, airspeed, lever = systems.autopilot.got["fly_on_pitch"]
+        assert airspeed == pytest.approx(asked_m_s)
+        assert lever == B737.takeoff.climb_lever
+
+
+def test_above_400_ft_it_turns_as_it_is_told() -> None:
     systems = Systems()
     modes = GuidanceModes(B737)
     then = EnRoute(
@@ -168,10 +184,8 @@ def test_above_400_ft_it_accelerates_to_the_clean_speed_and_turns_as_it_is_told(
     for altitude_m, is_told in ((121.0, False), (123.0, True)):
         state = along(3_000.0, speed_m_s=80.0, altitude_m=altitude_m, rate_m_s=8.0)
         assert ClimbOut(systems.all, FINAL, then).fly(state).name == "climb_out"
-        _, turn_rate, airspeed, _ = systems.autopilot.got["fly_on_pitch"]
+        turn_rate = systems.autopilot.got["fly_on_pitch"][1]
         assert turn_rate == (then.lateral if is_told else FINAL).turn_rate(state)
-        expected_kt = B737.speeds.minimum_clean_kt if is_told else V2_KT + 10.0
-        assert airspeed == pytest.approx(expected_kt * KNOT)
 
 
 def test_the_climb_out_cleans_up_and_levels_off_into_what_follows() -> None:
@@ -243,47 +257,55 @@ def test_a_rejected_takeoff_brakes_by_the_deceleration_of_the_type_and_spoils_th
 # --- go-around ----------------------------------------------------------------------------------
 
 
-def test_a_go_around_first_stops_the_descent_and_takes_the_gear_up_at_300_ft_min() -> None:
+def go_around_after(seconds: float, systems: Systems, rate_m_s: float) -> GoAround:
+    """Return a go-around some time after its beginning."""
+    modes = GuidanceModes(B737)
+    climb = modes.altitude_at_usual_rate(1_500.0)
+    going = GoAround(systems.all, EnRoute(systems.all, FINAL, climb, modes.clean_climb_speed()))
+    for _ in range(round(seconds / TICK_S)):
+        going.fly(along(-900.0, altitude_m=50.0, rate_m_s=rate_m_s))
+    return going
+
+
+def test_a_go_around_begins_with_the_levers() -> None:
     systems = Systems()
-    then = systems.en_route()
-    going = GoAround(systems.all, then)
+    go_around_after(0.9, systems, rate_m_s=-3.0)
+    _, _, *asked = systems.autopilot.got["flare"]
+    assert asked == [-3.0, 0.0, B737.takeoff.lever, None]
+
+
+def test_a_second_later_it_stops_the_descent_and_takes_gear_and_flaps_up_at_300_ft_min() -> None:
+    systems = Systems()
+    going = go_around_after(1.1, systems, rate_m_s=-3.0)
     sinking = along(-900.0, altitude_m=50.0, rate_m_s=1.52)
     assert going.fly(sinking) is going
     state, turn_rate, *asked = systems.autopilot.got["flare"]
-    assert (state, turn_rate) == (sinking, then.lateral.turn_rate(sinking))
-    assert asked == [pytest.approx(300.0 * FPM), 1.5, 1.0, None]
+    assert (state, turn_rate) == (sinking, FINAL.turn_rate(sinking))
+    assert asked == [pytest.approx(300.0 * FPM), 1.5, B737.takeoff.lever, None]
     assert "set_gear" not in systems.airframe.got
     going.fly(along(-900.0, altitude_m=50.0, rate_m_s=1.53))
     assert systems.airframe.got["set_gear"] == (0.0,)
-    assert "fly_on_pitch" not in systems.autopilot.got
+    assert systems.airframe.got["set_flaps"] == (B737.takeoff.flaps,)
 
 
-def gone_around(altitude_m: float, speed_m_s: float, rate_m_s: float = 8.0) -> Systems:
+def gone_around(altitude_m: float, speed_m_s: float) -> Systems:
     """Return what a tick of a go-around sets, in the climb at an altitude."""
     systems = Systems()
-    going = GoAround(systems.all, systems.en_route())
-    for state in (
-        along(-900.0, altitude_m=50.0, rate_m_s=8.0),
-        along(900.0, altitude_m=altitude_m, speed_m_s=speed_m_s, rate_m_s=rate_m_s),
-    ):
-        going.fly(state)
+    going = go_around_after(1.1, systems, rate_m_s=8.0)
+    going.fly(along(900.0, altitude_m=altitude_m, speed_m_s=speed_m_s, rate_m_s=8.0))
     return systems
 
 
-@pytest.mark.parametrize("over_m_s", [-4.0, 0.0, 4.0])
-def test_below_400_ft_it_goes_around_at_v2_with_its_flaps(over_m_s: float) -> None:
-    systems = gone_around(121.0, V2_KT * KNOT + over_m_s)
-    assert "set_flaps" not in systems.airframe.got
-    _, _, airspeed, lever = systems.autopilot.got["fly_on_pitch"]
-    assert airspeed == pytest.approx(V2_KT * KNOT)
-    assert lever == pytest.approx(1.0 - 0.05 * max(over_m_s, 0.0))
+def test_below_1000_ft_it_goes_around_at_v2_and_10_kt_and_at_the_usual_rate() -> None:
+    _, _, rate, airspeed = gone_around(304.0, 85.0).autopilot.got["fly"]
+    assert rate == pytest.approx(B737.speeds.climb_rate_fpm * FPM)
+    assert airspeed == pytest.approx((V2_KT + 10.0) * KNOT)
 
 
-def test_above_400_ft_it_takes_the_flaps_in_and_accelerates() -> None:
-    systems = gone_around(123.0, V2_KT * KNOT)
+def test_above_1000_ft_it_goes_on_as_after_a_takeoff() -> None:
+    systems = gone_around(306.0, (V2_KT + 21.0) * KNOT)
     assert systems.airframe.got["set_flaps"] == (0.0,)
-    airspeed = systems.autopilot.got["fly_on_pitch"][2]
-    assert airspeed == pytest.approx(B737.speeds.minimum_clean_kt * KNOT)
+    assert systems.autopilot.got["fly_on_pitch"][3] == B737.takeoff.climb_lever
 
 
 def test_a_go_around_to_a_low_altitude_levels_off_clean() -> None:
@@ -293,7 +315,7 @@ def test_a_go_around_to_a_low_altitude_levels_off_clean() -> None:
     going = GoAround(systems.all, then)
     going.fly(along(-900.0, altitude_m=50.0, rate_m_s=8.0))
     assert going.fly(along(0.0, altitude_m=105.0, rate_m_s=8.0)) is then
-    assert systems.airframe.got["set_flaps"] == (0.0,)
+    assert "clean_up" in systems.airframe.got
     assert systems.autopilot.got["fly"][3] == pytest.approx(B737.speeds.minimum_clean_kt * KNOT)
 
 

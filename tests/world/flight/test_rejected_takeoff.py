@@ -50,7 +50,7 @@ def test_it_can_take_off_after_all() -> None:
     for _ in states(aircraft, 30):
         pass
     aircraft.procedures.take_off(RUNWAY, 100.0)
-    for _ in states(aircraft, 60):
+    for _ in states(aircraft, 90):
         pass
     assert aircraft.phase == "en_route"
 

@@ -20,13 +20,25 @@ SCREEN_HEIGHT_M = 35.0 * FOOT
 CLIMBING_M_S = 300.0 * FOOT_PER_MINUTE
 """Climb rate from which the gear is retracted, in m/s."""
 CLIMB_SPEED_MARGIN_M_S = 10.0 * KNOT
-"""Excess of the initial climb speed over V2 with all engines, in m/s."""
+"""Excess of the initial climb speed over V2 with all engines, in m/s: 10 to 20 kt (ICAO Doc 8168,
+volume III, noise abatement departure climb)."""
 FLAPS_UP_MARGIN_M_S = 20.0 * KNOT
 """Excess over V2 from which the flaps are retracted, in m/s."""
-CLEAN_UP_HEIGHT_M = 400.0 * FOOT
-"""Least height of turns, acceleration and flap retraction, in m (14 CFR 25.111(c)(4))."""
-LEVER_PER_OVERSPEED_S_M = 0.05
-"""Reduction of the lever per excess of airspeed, in s/m, where the steepest climb leaves thrust."""
+TURN_HEIGHT_M = 400.0 * FOOT
+"""Least height of turns, in m (14 CFR 25.111(c)(4))."""
+ACCELERATION_HEIGHT_M = 1000.0 * FOOT
+"""Height in m at which takeoff thrust becomes climb thrust, and the aircraft accelerates and cleans
+up. Not below 800 ft (FAA AC 91-53A; ICAO Doc 8168, volume III); 1,000 ft is usual."""
+ACCELERATION_LEAD_M_S = 5.0
+"""Lead of the commanded airspeed while the aircraft accelerates, in m/s: by the autopilot's law 4 %
+of its weight then accelerates it, and what thrust is left climbs (assumed)."""
+GREATEST_PITCH = 15.0 * DEGREE
+"""Greatest pitch of a climb after takeoff, in rad: that which the flight directors of Boeings
+command first (737 flight crew training manual, takeoff and go-around)."""
+LEVERS_FIRST_S = 1.0
+"""Time in s from the levers of a go-around to the pull. With the 2 s of a command that is called
+(`airhilt.scenario.models.responses.CALL_S`) it is the 3 s that a pilot needs to react (ICAO Doc
+8168, volume II, part I, section 4, chapter 6)."""
 STOPPED_M_S = 300.0 * FOOT_PER_MINUTE
 """Climb rate from which the descent counts as stopped, in m/s."""
 STOP_M_S2 = 1.5
@@ -62,6 +74,7 @@ class TakeoffRoll(FlightPhase):
         self._then = then
         self._lever = 0.0
         kind = systems.kind
+        self._takeoff_lever = kind.takeoff.lever
         self._rotate_at = kind.speeds.rotate_kt * KNOT
         systems.ground.reset()
         systems.airframe.set_brakes(0.0)
@@ -70,7 +83,7 @@ class TakeoffRoll(FlightPhase):
     def fly(self, state: AircraftState) -> FlightPhase:
         """Roll one tick."""
         systems, line = self._systems, self.line
-        self._lever = min(self._lever + LEVER_PER_S * systems.tick_s, 1.0)
+        self._lever = min(self._lever + LEVER_PER_S * systems.tick_s, self._takeoff_lever)
         systems.airframe.set_throttle(self._lever)
         if state.calibrated_airspeed_m_s >= self._rotate_at:
             return Rotate(systems, line, self._then, state).fly(state)
@@ -95,6 +108,7 @@ class Rotate(FlightPhase):
         takeoff = systems.kind.takeoff
         self._pitch = takeoff.pitch_deg * DEGREE
         self._pitch_rate = takeoff.pitch_rate_deg_s * DEGREE
+        self._lever = takeoff.lever
         systems.autopilot.take_over(state, -takeoff.pull)
 
     def fly(self, state: AircraftState) -> FlightPhase:
@@ -107,12 +121,15 @@ class Rotate(FlightPhase):
             systems.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
         else:
             turn_rate = line.turn_rate(state)
-        systems.autopilot.rotate(state, self._pitch, self._pitch_rate, turn_rate, 1.0)
+        systems.autopilot.rotate(state, self._pitch, self._pitch_rate, turn_rate, self._lever)
         return self
 
 
 class ClimbOut(FlightPhase):
-    """Climbs at full thrust, cleans up, accelerates, and levels off into what follows."""
+    """Climbs at takeoff thrust, then accelerates, cleans up and climbs at climb thrust.
+
+    It levels off into what follows.
+    """
 
     name = "climb_out"
     commandable = True
@@ -121,27 +138,65 @@ class ClimbOut(FlightPhase):
         super().__init__(systems)
         self._line = line
         self._then = then
-        self._safety_speed = systems.kind.speeds.climb_safety_kt * KNOT
+        self._clean_up = CleanUp(systems)
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Climb one tick."""
-        autopilot, airframe, then = self._systems.autopilot, self._systems.airframe, self._then
-        airspeed = self._safety_speed + CLIMB_SPEED_MARGIN_M_S
-        turn_rate = self._line.turn_rate
+        systems, then = self._systems, self._then
         if state.vertical_rate_m_s > CLIMBING_M_S:
-            airframe.set_gear(0.0)
+            systems.airframe.set_gear(0.0)
         if then.vertical.captures(state):
-            airframe.clean_up()
+            systems.airframe.clean_up()
             return then.fly(state)
-        if state.height_agl_m > CLEAN_UP_HEIGHT_M:
-            airspeed = max(airspeed, then.speed.airspeed(state))
-            turn_rate = then.lateral.turn_rate
-            if state.calibrated_airspeed_m_s > self._safety_speed + FLAPS_UP_MARGIN_M_S:
-                airframe.set_flaps(0.0)
-        overspeed = max(state.calibrated_airspeed_m_s - airspeed, 0.0)
-        lever = 1.0 - LEVER_PER_OVERSPEED_S_M * overspeed
-        autopilot.fly_on_pitch(state, turn_rate(state), airspeed, lever)
+        lateral = then.lateral if state.height_agl_m > TURN_HEIGHT_M else self._line
+        turn_rate = lateral.turn_rate(state)
+        if self._clean_up.is_due(state):
+            self._clean_up.fly(state, turn_rate, then.speed.airspeed(state))
+        else:
+            climb_on_pitch(
+                systems, state, turn_rate, self._clean_up.speed, systems.kind.takeoff.lever
+            )
         return self
+
+
+class CleanUp:
+    """The climb from the acceleration height: climb thrust, acceleration, flaps up."""
+
+    def __init__(self, systems: AircraftSystems) -> None:
+        self._systems = systems
+        self._safety_speed = systems.kind.speeds.climb_safety_kt * KNOT
+        self.speed = self._safety_speed + CLIMB_SPEED_MARGIN_M_S
+        """Calibrated airspeed of the climb before, in m/s."""
+        self._has_begun = False
+
+    def is_due(self, state: AircraftState) -> bool:
+        """Return whether the acceleration height has been reached."""
+        self._has_begun = self._has_begun or state.height_agl_m > ACCELERATION_HEIGHT_M
+        return self._has_begun
+
+    def fly(self, state: AircraftState, turn_rate: float, airspeed: float) -> None:
+        """Accelerate towards an airspeed for one tick."""
+        systems, flown = self._systems, state.calibrated_airspeed_m_s
+        if flown > self._safety_speed + FLAPS_UP_MARGIN_M_S:
+            systems.airframe.set_flaps(0.0)
+        asked = max(self.speed, min(airspeed, flown + ACCELERATION_LEAD_M_S))
+        climb_on_pitch(systems, state, turn_rate, asked, systems.kind.takeoff.climb_lever)
+
+
+def climb_on_pitch(
+    systems: AircraftSystems, state: AircraftState, turn_rate: float, airspeed: float, lever: float
+) -> None:
+    """Hold an airspeed with pitch, up to the greatest and never down, for one tick.
+
+    Without one of its engines it does so at full thrust, which a crew may set then (FAA AC 25-13).
+    """
+    autopilot = systems.autopilot
+    if systems.airframe.has_failed_engine():
+        lever = 1.0
+    steepest = GREATEST_PITCH - autopilot.level_angle_of_attack
+    autopilot.fly_on_pitch(
+        state, turn_rate, airspeed, lever, steepest_climb=steepest, steepest_descent=0.0
+    )
 
 
 class RejectedTakeoff(FlightPhase):
@@ -173,7 +228,11 @@ class RejectedTakeoff(FlightPhase):
 
 
 class GoAround(FlightPhase):
-    """Goes around, cleans up, and levels off into what follows; from a flare it may touch."""
+    """Goes around, cleans up, and levels off into what follows; from a flare it may touch.
+
+    Up to the acceleration height it climbs at the rate of what follows: autothrottles hold 1,000 to
+    2,000 ft/min (737 flight crew training manual, go-around).
+    """
 
     name = "go_around"
     commandable = True
@@ -182,32 +241,32 @@ class GoAround(FlightPhase):
         super().__init__(systems)
         self.may_touch = may_touch
         self._then = then
-        self._airspeed = systems.kind.speeds.climb_safety_kt * KNOT
+        self._clean_up = CleanUp(systems)
+        self._flown_s = 0.0
         self._stopped = False
-        self._clean = False
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Fly one tick."""
-        autopilot, airframe = self._systems.autopilot, self._systems.airframe
-        turn_rate = self._then.lateral.turn_rate(state)
+        autopilot, airframe, then = self._systems.autopilot, self._systems.airframe, self._then
+        takeoff = self._systems.kind.takeoff
+        turn_rate = then.lateral.turn_rate(state)
+        self._flown_s += self._systems.tick_s
         if not self._stopped:
-            autopilot.flare(state, turn_rate, STOPPED_M_S, STOP_M_S2, 1.0, None)
+            rate, pull = state.vertical_rate_m_s, 0.0
+            if self._flown_s > LEVERS_FIRST_S:
+                rate, pull = STOPPED_M_S, STOP_M_S2
+            autopilot.flare(state, turn_rate, rate, pull, takeoff.lever, None)
             if state.vertical_rate_m_s >= STOPPED_M_S:
                 self._stopped = True
                 airframe.set_gear(0.0)
+                airframe.set_flaps(takeoff.flaps)
             return self
-        if self._then.vertical.captures(state):
-            self._clean_up()
-            return self._then.fly(state)
-        if not self._clean and state.height_agl_m > CLEAN_UP_HEIGHT_M:
-            self._clean_up()
-        overspeed = max(state.calibrated_airspeed_m_s - self._airspeed, 0.0)
-        lever = 1.0 - LEVER_PER_OVERSPEED_S_M * overspeed
-        autopilot.fly_on_pitch(state, turn_rate, self._airspeed, lever)
+        if then.vertical.captures(state):
+            airframe.clean_up()
+            return then.fly(state)
+        if self._clean_up.is_due(state):
+            self._clean_up.fly(state, turn_rate, then.speed.airspeed(state))
+        else:
+            rate = then.vertical.vertical_rate(state)
+            autopilot.fly(state, turn_rate, rate, self._clean_up.speed, closely=True)
         return self
-
-    def _clean_up(self) -> None:
-        """Retract the flaps and accelerate."""
-        self._systems.airframe.set_flaps(0.0)
-        self._airspeed = self._then.speed.target_m_s
-        self._clean = True
