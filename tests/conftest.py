@@ -35,6 +35,17 @@ CORE = (
     "seats", "shapes", "sim", "surveillance", "workers", "world",
 )  # fmt: skip
 """Folders of tests of a run and of what it is made of: no models, pictures, sweeps and pages."""
+DRAWN = [
+    {
+        "path": "actors/AAL123/initial/position/distance_nm",
+        "distribution": {"type": "normal", "sigma": 1.0, "limit": 2.0},
+    },
+    {
+        "path": "actors/DAL456/initial/cas_kt",
+        "distribution": {"type": "uniform", "limit": 8.0},
+    },
+]
+"""Perturbations of the encounter: the two stay on one line and level."""
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -44,7 +55,7 @@ def encounter() -> Scenario:
     document = load("s02a_headon").model_dump(mode="json")
     for actor in document["actors"]:
         actor["initial"]["position"]["distance_nm"] = 13.0
-    document |= {"name": "encounter", "duration_s": 30.0, "cameras": []}
+    document |= {"name": "encounter", "duration_s": 30.0, "cameras": [], "perturbations": DRAWN}
     return load_text(json.dumps(document), "encounter")
 
 

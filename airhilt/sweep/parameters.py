@@ -16,7 +16,7 @@ from typing import Any
 from airhilt.errors import AirhiltError
 from airhilt.host.library import nearest
 from airhilt.options import Options, flag_of
-from airhilt.scenario.perturbation import PathError, locate, place_of
+from airhilt.scenario.perturbation import PathError, locate, place_of, spreads
 
 Json = dict[str, Any]
 
@@ -149,9 +149,11 @@ def _with_value(document: Json, path: str, value: Any) -> Json:
             f"parameter {path}: {also}{document['name']!r} has no {error.chunk!r}{where}"
             f"{nearest(error.chunk, known)}"
         ) from None
-    drawn = [(each, locate(changed, each["path"])) for each in changed["perturbations"]]
+    given = place_of(changed, path.replace(".", "/"))
     changed["perturbations"] = [
-        each for each, place in drawn if not (place[0] is container and place[1] == key)
+        {"path": each, "distribution": spread.model_dump(mode="json")}
+        for each, spread in spreads(changed).items()
+        if place_of(changed, each) != given
     ]
     container[key] = value
     return changed

@@ -13,6 +13,7 @@ from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError
 from airhilt.record import read_log
 from airhilt.sensors.radio.frequency_arbiter import REACTION_S
+from nominal import nominal
 
 HOW: dict[str, Any] = {"latency": "fixed", "speech": False, "cameras": False}
 
@@ -20,7 +21,7 @@ HOW: dict[str, Any] = {"latency": "fixed", "speech": False, "cameras": False}
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("channel") / "run"
-    airhilt.run("s01a_misaddressed", out=out, advisory_channel="frequency", **HOW)
+    airhilt.run(nominal("s01a_misaddressed"), out=out, advisory_channel="frequency", **HOW)
     return out
 
 

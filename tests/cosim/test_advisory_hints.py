@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from airhilt import Scenario, load, run
+from airhilt import Scenario, run
 from airhilt.cosim.notices import WorkerNotices
 from airhilt.cosim.replay import replay
 from airhilt.messages import (
@@ -25,6 +25,7 @@ from airhilt.sim import Input, Output
 from airhilt.workers import Step
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite
+from nominal import nominal
 from notices import Notices
 
 SEE = "see docs/workers.md#what-makes-somebody-act"
@@ -42,7 +43,7 @@ def advisory(recipient: str, recommendation: Any = None, **other: Any) -> Adviso
 
 @pytest.fixture(scope="module")
 def actors() -> dict[str, Any]:
-    scenario = load("s01b_nominal")
+    scenario = nominal("s01b_nominal")
     return build_actors(scenario, ScenarioSite.of(scenario), 0, 0.05)
 
 

@@ -15,6 +15,7 @@ from airhilt.record import read_log
 from airhilt.scenario.models import LineBegun, Scenario
 from airhilt.units import SECOND_NS
 from breadth import mostly_slow
+from nominal import nominal
 
 SCENARIOS = [name for name in library.names("scenarios") if not name.startswith("s02a")]
 NOMINAL = [name for name in SCENARIOS if name.endswith("_nominal")]
@@ -26,9 +27,9 @@ WITH_AND_WITHOUT_SOUND = pytest.mark.parametrize(
 )
 
 
-def alone(name: str, out: Path, seed: int = 0, speech: bool = False) -> Summary:
+def alone(scenario: Scenario, out: Path, seed: int = 0, speech: bool = False) -> Summary:
     return run(
-        load(name),
+        scenario,
         out=out,
         latency="fixed",
         cameras=False,
@@ -41,7 +42,7 @@ def alone(name: str, out: Path, seed: int = 0, speech: bool = False) -> Summary:
 
 def assisted(name: str, out: Path, speech: bool = False) -> Summary:
     return run(
-        load(name), out=out, latency="fixed", cameras=False, speech=speech, report=False
+        nominal(name), out=out, latency="fixed", cameras=False, speech=speech, report=False
     ).summary
 
 
@@ -50,7 +51,7 @@ def assisted(name: str, out: Path, speech: bool = False) -> Summary:
 def test_without_an_assistant_what_the_scenario_describes_comes_to_pass(
     name: str, speech: bool, tmp_path: Path
 ) -> None:
-    summary = alone(name, tmp_path / "run", speech=speech)
+    summary = alone(load(name), tmp_path / "run", speech=speech)
     assert summary.t_conflict_s is not None
     assert summary.unassisted_as_declared
     assert summary.avoided is False
@@ -73,13 +74,13 @@ def begin_s(folder: Path, line: str) -> float:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [4, 10, 13])
 def test_the_flock_is_met_whatever_the_birds_do_on_their_way(seed: int, tmp_path: Path) -> None:
-    assert alone("s01c_flock_on_final", tmp_path / "run", seed).collision
+    assert alone(nominal("s01c_flock_on_final"), tmp_path / "run", seed).collision
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(20))
 def test_the_departure_strikes_the_birds_in_every_seed(seed: int, tmp_path: Path) -> None:
-    summary = alone("s02b_bird_strike", tmp_path / "run", seed)
+    summary = alone(load("s02b_bird_strike"), tmp_path / "run", seed)
     assert summary.t_conflict_s is not None
     assert summary.loss_of_separation
 
@@ -205,7 +206,7 @@ def test_every_family_has_its_variants_and_a_nominal_twin() -> None:
 @pytest.mark.parametrize("name", CONFLICTS)
 def test_without_its_failures_a_conflict_does_not_arise(name: str, tmp_path: Path) -> None:
     """A departure that waits for its traffic leaves, and everybody comes to their end."""
-    scenario = load(name)
+    scenario = nominal(name)
     if not scenario.failures:
         pytest.skip("nothing fails in this scenario")
     scenario = scenario.model_copy(update={"failures": (), "end_when": ()})

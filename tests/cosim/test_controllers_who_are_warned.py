@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from airhilt import load
 from airhilt.cosim.simulation import run
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
 from airhilt.record import Logged, open_run
 from airhilt.scenario.models import Controller
+from nominal import nominal
 from seats import contents
 
 TOWER = "Washington Tower"
@@ -20,7 +20,7 @@ TOWER = "Washington Tower"
 
 def told_alone(name: str, out: Path, **controller: Any) -> tuple[Summary, list[Logged]]:
     """Return how a run ends in which the tower alone is warned, and its log."""
-    scenario = load(name).model_copy(
+    scenario = nominal(name).model_copy(
         update={"cameras": (), "controllers": {TOWER: Controller(**controller)}}
     )
     options = Options(out=out, latency="fixed", recipients="controller", report=False)

@@ -21,6 +21,7 @@ from airhilt.sweep.cases import cases
 from airhilt.sweep.specification import Specification
 from airhilt.workers.pool import Participant
 from airhilt.workers.protocol import LocalWorker
+from nominal import nominal
 
 NO_SENSES: dict[str, Any] = {"cameras": False, "speech": False, "latency": "fixed"}
 
@@ -55,7 +56,7 @@ def heard(scenario: Scenario, folder: Path, modalities: str) -> Listens:
 
 
 def talking(duration_s: float = 30.0) -> Scenario:
-    return airhilt.load("s01a_bad_readback").model_copy(update={"duration_s": duration_s})
+    return nominal("s01a_bad_readback").model_copy(update={"duration_s": duration_s})
 
 
 def test_what_is_not_given_does_not_arrive(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ import airhilt
 from airhilt.messages import Event
 from airhilt.record import read_log
 from airhilt.units import SECOND_NS
+from nominal import nominal
 
 FIRST_SENTENCE = re.compile(r"[^.]+")
 """The sentence of the template that says what to do."""
@@ -72,8 +73,8 @@ def test_who_hears_an_advisory_acts_after_its_instruction_has_been_said(
 ) -> None:
     out = tmp_path / "run"
     airhilt.run(
-        scenario, out=out, advisory_channel=channel, crews=crews, latency="fixed", cameras=False,
-        report=False, recipients="crew",
+        nominal(scenario), out=out, advisory_channel=channel, crews=crews, latency="fixed",
+        cameras=False, report=False, recipients="crew",
     )  # fmt: skip
     ends = instruction_ends(out, channel)
     reactions = 0

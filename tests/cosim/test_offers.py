@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.record import Logged
 from airhilt.scenario import Scenario
 from airhilt.scenario.models.radio import ReceiverRadio
 from breadth import mostly_slow
+from nominal import nominal
 from seats import SECOND, act, cards, contents, logged, offers, said, spoken, states, tower, voice
 
 TURN = "American one two three, turn left heading two seven zero"
@@ -20,7 +20,7 @@ TURN = "American one two three, turn left heading two seven zero"
 
 def ground(duration_s: float = 60.0) -> Scenario:
     """Ground lets DAL456 taxi at 16 s, beside the landing at Washington."""
-    scenario = load("s01b_ground_nominal")
+    scenario = nominal("s01b_ground_nominal")
     return scenario.model_copy(update={"duration_s": duration_s, "cameras": ()})
 
 
@@ -110,7 +110,7 @@ def test_what_waits_for_a_condition_is_offered_at_once_and_says_nothing_of_it(
     tmp_path: Path,
 ) -> None:
     """The tower clears DAL456 for take-off, and to turn once in the climb."""
-    scenario = load("s01a_nominal").model_copy(update={"cameras": ()})
+    scenario = nominal("s01a_nominal").model_copy(update={"cameras": ()})
     log = logged(scenario, tmp_path / "run", ["DAL456"])
     assert [one["command"]["action"] for one in offers(log, "DAL456")] == ["take_off", "track"]
     for number in (1, 2):
@@ -119,7 +119,7 @@ def test_what_waits_for_a_condition_is_offered_at_once_and_says_nothing_of_it(
 
 def test_what_goes_with_the_own_call_is_offered_when_that_is_due(tmp_path: Path) -> None:
     """The crew of AAL123 climbs with its readback."""
-    scenario = load("s02a_nominal").model_copy(update={"cameras": ()})
+    scenario = nominal("s02a_nominal").model_copy(update={"cameras": ()})
     log = logged(scenario, tmp_path / "run", ["AAL123"])
     (card,) = [one for one in cards(log, "AAL123") if one["line"] == "readback"]
     (offer,) = offers(log, "AAL123")

@@ -13,6 +13,7 @@ from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
 from airhilt.units import SECOND_NS
 from breadth import mostly_slow
+from nominal import nominal
 
 CONFLICTS = ("s02a_headon", "s02a_in_trail", "s02a_vertical", "s02a_converging")
 PASSED_S = 200.0
@@ -28,7 +29,7 @@ def pair_of_runs(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Summary, Summary, Path]:
     """One scenario with the reference assistant, without one, and the latter's folder."""
-    scenario = load(request.param)
+    scenario = nominal(request.param)
     folder = tmp_path_factory.mktemp(request.param)
     options: dict[str, Any] = {
         "latency": "fixed", "cameras": False, "speech": False, "report": False,
@@ -91,9 +92,9 @@ def test_the_margin_over_tcas_is_what_the_run_without_assistant_shows(
 def test_nothing_is_said_about_nominal_traffic(
     tmp_path: Path, seed: int, speech: bool, duration_s: float
 ) -> None:
-    nominal = load("s02a_nominal").model_copy(update={"duration_s": duration_s})
+    traffic = load("s02a_nominal").model_copy(update={"duration_s": duration_s})
     summary = run(
-        nominal, out=tmp_path / "run", latency="fixed", cameras=False, seed=seed, speech=speech,
+        traffic, out=tmp_path / "run", latency="fixed", cameras=False, seed=seed, speech=speech,
         report=False,
     ).summary  # fmt: skip
     assert summary.nuisance_alerts == 0
@@ -103,7 +104,7 @@ def test_nothing_is_said_about_nominal_traffic(
 
 @pytest.mark.parametrize("seed", mostly_slow(range(1, 4), 1))
 def test_a_wrong_readback_is_noticed_as_soon_as_it_was_said(tmp_path: Path, seed: int) -> None:
-    scenario = load("s02a_vertical").model_copy(update={"duration_s": 40.0})
+    scenario = nominal("s02a_vertical").model_copy(update={"duration_s": 40.0})
     summary = run(scenario, out=tmp_path / "run", latency="fixed", cameras=False, seed=seed).summary
     assert [told.kind for told in summary.advisories][:1] == ["readback_mismatch"]
     assert summary.time_to_first_warning_after_call_s is not None

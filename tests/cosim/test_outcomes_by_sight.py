@@ -12,12 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import load, run
+from airhilt import run
 from airhilt.messages import Advisory, Severity
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
 from airhilt.units import SECOND_NS
 from breadth import mostly_slow
+from nominal import nominal
 from oracle import Follower, Oracle, watched
 
 IN_THE_AIR = ("s02c_intruder_headon", "s02c_intruder_overtaking", "s02c_intruder_crossing")
@@ -112,7 +113,7 @@ def has_erred(follower: Oracle) -> bool:
 def drawn(name: str, out: Path) -> Summary:
     """Run a scenario with its cameras, or skip the test where they cannot be drawn."""
     pytest.importorskip("onnxruntime")
-    summary = run(load(name), out=out, latency="fixed", renderer="embree").summary
+    summary = run(nominal(name), out=out, latency="fixed", renderer="embree").summary
     if summary.modalities["vision"] == "not evaluated":
         pytest.skip("no renderer")
     return summary

@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from airhilt import load
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import read_wav
 from airhilt.cosim.observer import Observer, Snapshot
@@ -20,13 +19,14 @@ from airhilt.record import RunFolder, read_log
 from airhilt.record.audio import audio_file
 from airhilt.scenario.models import Scenario, StuckMicrophone
 from airhilt.units import SECOND_NS
+from nominal import nominal
 
 DURATION_S = 75.0
 QUIET = Options(latency="fixed", assistant="none", speech=False)
 
 
 def ran(name: str, out: Path, failures: tuple[StuckMicrophone, ...] = (), **options: Any) -> Any:
-    scenario = load(name)
+    scenario = nominal(name)
     both = (*scenario.failures, *failures)
     scenario = scenario.model_copy(update={"failures": both, "duration_s": DURATION_S})
     run(scenario, QUIET.model_copy(update={"out": out, **options}))
@@ -104,7 +104,7 @@ class Listening(Observer):
 
 def stuck_at_1_s(for_s: float, duration_s: float) -> Scenario:
     stuck = StuckMicrophone(type="stuck_microphone", actor="AAL123", at_s=1.0, for_s=for_s)
-    scenario = load("s02a_nominal")
+    scenario = nominal("s02a_nominal")
     return scenario.model_copy(update={"failures": (stuck,), "duration_s": duration_s})
 
 

@@ -6,15 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import load, run
+from airhilt import run
 from airhilt.cosim.replay import replay
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
+from nominal import nominal
 
 
 def go(scenario: str, assistant: str, folder: Path, equipment: tuple[str, ...] = ()) -> Summary:
     return run(
-        load(scenario), out=folder, latency="fixed", cameras=False, speech=False,
+        nominal(scenario), out=folder, latency="fixed", cameras=False, speech=False,
         assistant=assistant, equipment=equipment,
     ).summary  # fmt: skip
 

@@ -12,7 +12,6 @@ from typing import Any
 
 import pytest
 
-from airhilt import load
 from airhilt.assistant.tts.worker import TtsWorker
 from airhilt.cosim.recorded import UnregisteredMessage
 from airhilt.cosim.replay import replay
@@ -22,6 +21,7 @@ from airhilt.scenario import Scenario
 from airhilt.sim import pace
 from airhilt.units import seconds_to_ns
 from breadth import mostly_slow
+from nominal import nominal
 from seats import (
     SECOND,
     act,
@@ -105,7 +105,7 @@ def test_words_that_mean_what_the_script_has_let_it_be_done(
 
 
 def test_a_ground_controller_has_the_taxiways_and_nothing_of_the_tower(tmp_path: Path) -> None:
-    ground = load("s01b_ground_nominal").model_copy(update={"duration_s": 110.0, "cameras": ()})
+    ground = nominal("s01b_ground_nominal").model_copy(update={"duration_s": 110.0, "cameras": ()})
     lines = {line.id: line.text for line in ground.radio.lines}
     given = [
         said("Washington_Ground", 10.0, lines["hold"]),
@@ -245,7 +245,7 @@ def test_an_aircraft_that_was_not_told_to_land_goes_around_and_says_so(tmp_path:
 def test_a_warning_helps_a_person_who_lands_only_if_the_person_reacts(
     tmp_path: Path, reacts: bool, avoided: bool
 ) -> None:
-    scenario = load("s01b_noncompliance").model_copy(update={"cameras": ()})
+    scenario = nominal("s01b_noncompliance").model_copy(update={"cameras": ()})
     land, go_around = {"action": "land", "runway": "01"}, {"action": "go_around"}
     given = [taken("AAL123"), act("AAL123", 5.0, "fly", command=land)]
     if reacts:
@@ -266,7 +266,7 @@ def test_a_warning_at_empty_seats_helps_only_once_their_crews_fly_by_themselves(
         for t_s in (2.0, left_s or 0.0)
         for seat in seats
     ]
-    scenario = load("s02a_headon").model_copy(update={"cameras": ()})
+    scenario = nominal("s02a_headon").model_copy(update={"cameras": ()})
     out = tmp_path / "run"
     logged(scenario, out, seats, () if left_s is None else given, assistant="reference")
     summary = json.loads((out / "summary.json").read_text())

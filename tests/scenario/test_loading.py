@@ -215,6 +215,20 @@ def test_a_perturbation_leads_to_a_number(subtests: pytest.Subtests) -> None:
             assert what in message
 
 
+def test_a_perturbation_has_bounds(subtests: pytest.Subtests) -> None:
+    for perturbation, what in [
+        ({"path": "duration_s"}, "'duration_s' is of no kind that has a usual spread"),
+        ({"path": "actors/*/initial/cas_kts"}, "'actors/*/initial/cas_kts' leads nowhere"),
+        ({"path": "duration_s", "distribution": UNIFORM | {"limit": -1.0}}, "greater than 0"),
+        ({"path": "duration_s", "distribution": UNIFORM | {"least": 1.0}}, "less than or equal"),
+        ({"path": "duration_s", "distribution": {"type": "even", "limit": 1.0}}, "found"),
+    ]:
+        with subtests.test(what):
+            message = complaint(changed(HEAD_ON, "perturbations", [perturbation]))
+            assert "test.json: perturbations/0/" in message
+            assert what in message
+
+
 def test_a_number_is_perturbed_once() -> None:
     twice = [{"path": "duration_s", "distribution": UNIFORM}] * 2
     assert "perturbations/1/path: found 'duration_s'" in complaint(

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import load, run
+from airhilt import run
 from airhilt.scenario import Scenario
 from airhilt.scenario.models.radio import ReceiverRadio
+from nominal import nominal
 from seats import logged, spoken, tower, voice
 from shortened import shortened
 from stations import PretendedRun, seat_page
@@ -36,7 +37,7 @@ def brief_file(encounter: Scenario, tmp_path: Path) -> Path:
 def airport_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run of 6 s at an airport, without sound and pictures."""
     out = tmp_path_factory.mktemp("airport") / "run"
-    short = load("s01b_dropped_hold").model_copy(update={"duration_s": 6.0, "cameras": ()})
+    short = nominal("s01b_dropped_hold").model_copy(update={"duration_s": 6.0, "cameras": ()})
     return run(short, out=out, latency="fixed", assistant="none", speech=False, report=False).folder
 
 

@@ -14,8 +14,8 @@ from typing import Any
 
 import pytest
 
-from airhilt import load
 from devtools import Page
+from nominal import nominal
 from stations import experiment_page, running, seat_page, stationed, take_seat, viewed
 
 AXE = Path(os.environ.get("AXE_CORE", "node_modules/axe-core/axe.min.js"))
@@ -85,7 +85,7 @@ def test_the_seats(page: Page, encounter_file: Path, tmp_path: Path, seat: str) 
 
 
 def test_the_seat_of_a_driver(page: Page, tmp_path: Path) -> None:
-    short = load("s01b_nominal").model_copy(update={"cameras": ()})
+    short = nominal("s01b_nominal").model_copy(update={"cameras": ()})
     file = tmp_path / "driver.json"
     file.write_text(short.model_dump_json())
     with running(file, tmp_path / "run", "--seat", "OPS1") as (_, url):

@@ -17,7 +17,6 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from airhilt import load
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.tracker import Tracker
 from airhilt.cosim import cameras as vision
@@ -45,6 +44,7 @@ from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
 from airhilt.workers.protocol import Step
 from airhilt.world.site import ScenarioSite
+from nominal import nominal
 
 SMALLEST_PX = 8.0
 LEAST_TRANSMISSION = 0.15
@@ -239,4 +239,4 @@ def watched(
     patch.setattr(vision, "_open_renderer", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     options = Options(seed=seed, out=out, latency="fixed")
-    return cosim.run(scenario or load(name), options).summary, made[0]
+    return cosim.run(scenario or nominal(name), options).summary, made[0]

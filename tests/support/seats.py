@@ -10,7 +10,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from airhilt import load
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, to_pcm
 from airhilt.cosim.recorded import Recorded, UnregisteredMessage
 from airhilt.cosim.simulation import run
@@ -19,6 +18,7 @@ from airhilt.options import Options
 from airhilt.record import Logged, open_run
 from airhilt.scenario import Scenario
 from airhilt.voices.engines import tts_engine
+from nominal import nominal
 
 T = TypeVar("T")
 SECOND = 1_000_000_000
@@ -47,7 +47,7 @@ def state_of(seat: str, **more: Any) -> SeatState:
 
 def tower(duration_s: float = 40.0) -> Scenario:
     """A landing at Washington, where the tower clears AAL123 to land at 1 s."""
-    return load("s01b_nominal").model_copy(update={"duration_s": duration_s, "cameras": ()})
+    return nominal("s01b_nominal").model_copy(update={"duration_s": duration_s, "cameras": ()})
 
 
 def logged(

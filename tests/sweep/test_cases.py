@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import airhilt
 from airhilt.errors import AirhiltError
 from airhilt.scenario import Scenario
+from airhilt.scenario.perturbation import spreads
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.environment import PACKAGE_FILES, Environment, environment, require_same
 from airhilt.sweep.files import NamedFiles
@@ -60,10 +61,10 @@ def test_a_parameter_of_the_scenario_is_set_in_its_place_alone() -> None:
 
 def test_a_parameter_that_is_swept_is_not_drawn_any_more() -> None:
     (plain,) = grid()
-    drawn = [each["path"] for each in plain.document["perturbations"]]
+    drawn = list(spreads(plain.document))
     path = drawn[0].replace("/", ".")
     (swept,) = grid(axes={path: [240]})
-    assert [each["path"] for each in swept.document["perturbations"]] == drawn[1:]
+    assert list(spreads(swept.document)) == drawn[1:]
 
 
 def test_settings_of_the_assistant_are_parameters() -> None:

@@ -70,6 +70,7 @@ from airhilt.scenario.models.responses import (
 )
 from airhilt.scenario.models.scenario import (
     Conflict,
+    Distribution,
     Normal,
     Perturbation,
     Scenario,

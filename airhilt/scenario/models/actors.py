@@ -111,6 +111,12 @@ class AircraftSpec(Model):
         description="name of a file in aircraft/, such as 737, or a file beside the scenario"
     )
     initial: AircraftStart
+    load: Number = Field(
+        default=0.0,
+        ge=-0.1,
+        le=0.1,
+        description="mass above that of the model of the type, as a part of its empty mass",
+    )
     route: tuple[Position, ...] = Field(
         default=(), max_length=100, description="waypoints flown in order; then straight on"
     )

@@ -68,21 +68,30 @@ class Normal(Model):
 
 
 class Uniform(Model):
-    """Uniform distribution between ``-limit`` and ``limit``."""
+    """Uniform distribution between ``least`` and ``limit``."""
 
     type: Literal["uniform"]
     limit: Number = Field(gt=0.0, le=GREATEST_DRAW)
+    least: Number | None = Field(
+        default=None, ge=-GREATEST_DRAW, le=0.0, description="null: -limit"
+    )
+
+
+Distribution = Annotated[Normal | Uniform, Field(discriminator="type")]
 
 
 class Perturbation(Model):
-    """Number in this file to which a seeded draw is added.
+    """Number in this file to which a seeded draw is added, or several numbers, each with its own.
 
     ``path`` leads to it from the top; list entries are named by callsign, id or name, or by index:
-    ``actors/AAL123/initial/cas_kt``.
+    ``actors/AAL123/initial/cas_kt``. ``*`` stands for every name: ``actors/*/initial/cas_kt``. Of
+    two entries for a number the later one counts.
     """
 
     path: str = Field(min_length=1, max_length=200)
-    distribution: Annotated[Normal | Uniform, Field(discriminator="type")]
+    distribution: Distribution | None = Field(
+        default=None, description="null: the usual one of this kind of number"
+    )
 
 
 class Scenario(Model):

@@ -112,6 +112,7 @@ class _Builder:
             seed=self._seed_of(f"turbulence/{actor.callsign}"),
             atmosphere=atmosphere_of(self.scenario.weather),
             terrain_elevation_m=site.ground_m,
+            load=actor.load,
             tick_s=self.tick_s,
         )
         seed = response_seed(self.scenario, self.seed)

@@ -13,8 +13,9 @@ from airhilt.scenario.models import (
     VehicleSpec,
     WildlifeSpec,
 )
-from airhilt.scenario.perturbation import PathError, locate
+from airhilt.scenario.perturbation import PathError, locate, numbers
 from airhilt.scenario.problems import Problem, short_json, unknown
+from airhilt.scenario.spreads import usual_spread
 from airhilt.world.checks.walk import models_of
 
 
@@ -83,24 +84,31 @@ def dangling_references(scenario: Scenario) -> Iterator[Problem]:
 
 
 def misplaced_perturbations(scenario: Scenario) -> Iterator[Problem]:
-    """Yield perturbations whose path leads to no number, or that share a path."""
+    """Yield perturbations that lead to no number, have no distribution, or share a path."""
     document = scenario.model_dump(mode="json")
     for index, perturbation in enumerate(scenario.perturbations):
         path = f"perturbations/{index}/path"
         try:
-            container, key = locate(document, perturbation.path)
+            reached = numbers(document, perturbation.path)
+            values = [locate(document, each) for each in reached]
         except PathError as error:
             tail = library.nearest(error.chunk, error.known)
             yield Problem(
                 path, f"{perturbation.path!r} leads nowhere: no {error.chunk!r} there{tail}"
             )
             continue
-        value = container[key]
-        if not isinstance(value, float):
-            yield Problem(
-                path,
-                f"{perturbation.path!r} is {short_json(value)}; expected the path of a number that "
-                "may have a fraction",
-            )
+        for each, (container, key) in zip(reached, values, strict=True):
+            value = container[key]
+            if not isinstance(value, float):
+                yield Problem(
+                    path,
+                    f"{each!r} is {short_json(value)}; expected the path of a number that "
+                    "may have a fraction",
+                )
+            elif perturbation.distribution is None and usual_spread(each) is None:
+                yield Problem(
+                    path,
+                    f"{each!r} is of no kind that has a usual spread; expected a distribution",
+                )
     paths = [perturbation.path for perturbation in scenario.perturbations]
     yield from _duplicates("perturbations", "path", paths)

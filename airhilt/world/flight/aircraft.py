@@ -28,6 +28,8 @@ class Aircraft:
         Seed of its turbulence. The same seed and commands give the same flight, bit by bit.
     terrain_elevation_m
         Elevation of the flat ground below it, above WGS84.
+    load
+        Mass above that of the type's model, as a part of its empty mass.
     tick_s
         Time between two calls of `advance`, in s, divided into steps of the flight dynamics.
 
@@ -57,6 +59,7 @@ class Aircraft:
         seed: int,
         atmosphere: Atmosphere,
         terrain_elevation_m: float = 0.0,
+        load: float = 0.0,
         tick_s: float = 0.05,
         substeps: int = 6,
     ) -> None:
@@ -66,7 +69,11 @@ class Aircraft:
         self._guard = FlightGuard(kind)
         self._failing: list[int] = []
         self._airframe = airframe = Airframe(
-            kind, step_s=tick_s / substeps, seed=seed, terrain_elevation_m=terrain_elevation_m
+            kind,
+            step_s=tick_s / substeps,
+            seed=seed,
+            terrain_elevation_m=terrain_elevation_m,
+            load=load,
         )
         start = Start(airframe, kind, tick_s, substeps)
         autopilot = start.begin(initial, atmosphere, terrain_elevation_m)

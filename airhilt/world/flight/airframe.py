@@ -60,9 +60,15 @@ class Airframe:
     """
 
     def __init__(
-        self, kind: AircraftType, *, step_s: float, seed: int, terrain_elevation_m: float
+        self,
+        kind: AircraftType,
+        *,
+        step_s: float,
+        seed: int,
+        terrain_elevation_m: float,
+        load: float = 0.0,
     ) -> None:
-        self._fdm = fdm = load_model(kind.jsbsim_model)
+        self._fdm = fdm = load_model(kind.jsbsim_model, load)
         self._kind = kind
         self._seed = seed
         self._wheels_on_ground_m = terrain_elevation_m + kind.dimensions.wheel_height_offset_m

@@ -26,15 +26,18 @@ class ModelError(AirhiltError):
     """JSBSim does not have the model, or cannot fly it from the asked condition."""
 
 
-def load_model(model: str) -> jsbsim.FGFDMExec:
+def load_model(model: str, load: float = 0.0) -> jsbsim.FGFDMExec:
     """Return a fresh FGFDMExec with the model loaded, silent and alone.
 
+    ``load`` is mass above that of the model, as a part of its empty mass, at its centre of gravity.
     JSBSim's logger belongs to a thread: what a model has to say later, in a thread in which none
     was loaded, goes to stdout. `ModelError` says that there is no such model, or it cannot load.
     """
     jsbsim.set_logger(_SILENCE)
     root = Path(jsbsim.get_default_root_dir())
     stripped = _stripped(root, model)
+    if load:
+        stripped = _laden(stripped, load)
     with tempfile.TemporaryDirectory(prefix="airhilt-jsbsim-") as scratch:
         folder = Path(scratch, model)
         folder.mkdir()
@@ -67,3 +70,11 @@ def _stripped(root: Path, model: str) -> bytes:
             if (source.text or "").strip().startswith("ap/"):
                 component.remove(source)
     return ElementTree.tostring(config)
+
+
+def _laden(config: bytes, load: float) -> bytes:
+    """Return the model's file with another empty mass; the moments of inertia stay."""
+    root = ElementTree.fromstring(config)  # noqa: S314 - JSBSim's own file
+    for mass in root.iterfind("mass_balance/emptywt"):
+        mass.text = str(float(mass.text or 0.0) * (1.0 + load))
+    return ElementTree.tostring(root)
