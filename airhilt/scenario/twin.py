@@ -6,11 +6,9 @@ from pydantic import ValidationError
 
 from airhilt.errors import ScenarioError, first_problem
 from airhilt.host.library import nearest
+from airhilt.scenario.documents import Json
 from airhilt.scenario.models import Scenario
-from airhilt.scenario.perturbation import PathError, locate
-
-OF_FAILURES = "failures/"
-"""Beginning of the paths of perturbations that a twin does not have."""
+from airhilt.scenario.perturbation import PathError, locate, numbers
 
 
 def twin_of(scenario: Scenario) -> Scenario:
@@ -38,11 +36,21 @@ def twin_of(scenario: Scenario) -> Scenario:
         "failures": [],
         "conflict": None,
         "nominal_twin": None,
-        "perturbations": [
-            one for one in document["perturbations"] if not one["path"].startswith(OF_FAILURES)
-        ],
     }
+    document["perturbations"] = [
+        one for one in document["perturbations"] if _leads_somewhere(document, one["path"])
+    ]
     try:
         return Scenario.model_validate(document)
     except ValidationError as error:
         raise ScenarioError(first_problem(error)) from None
+
+
+def _leads_somewhere(document: Json, path: str) -> bool:
+    """Return whether the twin has what a perturbation of the scenario is of."""
+    try:
+        for found in numbers(document, path):
+            locate(document, found)
+    except PathError:
+        return False
+    return True

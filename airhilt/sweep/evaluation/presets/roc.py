@@ -15,7 +15,7 @@ from airhilt.sweep.evaluation import ranking, scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, CONTROLS, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
 from airhilt.sweep.evaluation.ranking import Tried
-from airhilt.sweep.evaluation.tables import Cell, Curves, Point, Table, number, share
+from airhilt.sweep.evaluation.tables import Cell, Curves, Point, Quantity, Table, number, share
 from airhilt.sweep.specification import Specification
 
 FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -76,7 +76,8 @@ def tables(results: Results) -> Sequence[Table]:
             if own is None:
                 continue
             missed, nuisance = _point(own)
-            points.append(Point(x=nuisance, y=missed, label=f"x{factor:g}"))
+            if None not in (missed.value, nuisance.value):
+                points.append(Point(x=nuisance, y=missed, label=f"x{factor:g}"))
             index = number(ranking.youden_index(own, nobody), 2)
             rows.append((each.name, f"{factor:g}", missed, nuisance, index))
         curves[each.name] = tuple(points)
@@ -98,7 +99,7 @@ def tables(results: Results) -> Sequence[Table]:
     return characteristic, ranking.table(as_shipped, nobody)
 
 
-def _point(tried: Tried) -> tuple[Any, Any]:
+def _point(tried: Tried) -> tuple[Quantity, Quantity]:
     return (
         share(scores.share(tried.conflicts, "missed")),
         number(scores.nuisance_per_hour(tried.twins)),
