@@ -113,9 +113,14 @@ class Recorded:
 
 
 def read_recorded(
-    folder: RunFolder, info: RunInfo, latencies: RecordedLatencies, log: Sequence[Logged]
+    folder: RunFolder,
+    info: RunInfo,
+    latencies: RecordedLatencies,
+    log: Sequence[Logged],
+    *,
+    every_worker: bool = False,
 ) -> Recorded:
-    """Return what a replay takes from the record of a run.
+    """Return what a replay takes from the record of a run; if asked for, of every worker.
 
     Raises
     ------
@@ -123,7 +128,8 @@ def read_recorded(
         A sound of the run cannot be read.
     """
     breaks_off = info.phase != "finished"
-    workers = {each.name: each for each in _elsewhere(info)}
+    taken = [one.description for one in info.workers] if every_worker else _elsewhere(info)
+    workers = {each.name: each for each in taken}
     attached = {worker.description.name for worker in info.workers if worker.where == "attached"}
     programs = tuple(set(info.options.attach) - attached)
     events = [

@@ -13,12 +13,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from airhilt.cosim.differences import first_difference
-from airhilt.cosim.observer import Observer
+from airhilt.cosim.observer import Observer, Result
 from airhilt.cosim.recorded import depends_on_log, read_recorded
 from airhilt.cosim.simulation import run
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.host.files import content_sha256
 from airhilt.messages import Event
+from airhilt.metrics.summary import Summary
 from airhilt.record import Logged, Run, RunFolder, RunInfo, open_run, read_log
 from airhilt.record.damage import untold
 from airhilt.record.folder import machine, versions
@@ -83,13 +84,35 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
         There is no run, it cannot be read, or what its replay needs is damaged.
     """
     original = open_run(path, untold)
+    _, verdict = _repeat(original, observer)
+    return verdict
+
+
+def rescore(path: Path, observer: Observer | None = None) -> tuple[Summary, Verdict]:
+    """Make the scores of a run again from its folder alone, and compare the flight with its log.
+
+    No worker computes anything: all that any of them said comes from the record.
+
+    Raises
+    ------
+    RunFolderError
+        As of `replay`.
+    """
+    result, verdict = _repeat(open_run(path, untold), observer, is_rescored=True)
+    return result.summary, verdict
+
+
+def _repeat(
+    original: Run, observer: Observer | None, *, is_rescored: bool = False
+) -> tuple[Result, Verdict]:
+    """Return what came of a run that was run again, and how its log compares."""
     folder, info = original.folder, original.info
     if not info.options.voice_recording:
         raise RunFolderError(
             f"{folder.path}: made with --no-voice-recording, so that what people said is not in "
             "it; expected a run with their voices"
         )
-    _require_inputs(original)
+    _require_inputs(original, is_rescored)
     latencies = original.latencies()
     recorded_log = list(original.messages())
     try:
@@ -111,14 +134,16 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             }
         )
         try:
-            recorded = read_recorded(folder, info, latencies, recorded_log)
+            recorded = read_recorded(
+                folder, info, latencies, recorded_log, every_worker=is_rescored
+            )
         except ValidationError as error:
             raise RunFolderError(
                 f"{folder.log_path}: {first_problem(error)}; expected a log of this version"
             ) from None
         result = run(scenario, options, observer, recorded)
         repeated = list(read_log(RunFolder(result.folder).log_path))
-    return _compare(recorded_log, repeated, original)
+    return result, _compare(recorded_log, repeated, original)
 
 
 def _configuration(info: RunInfo) -> dict[str, Any] | None:
@@ -129,12 +154,12 @@ def _configuration(info: RunInfo) -> dict[str, Any] | None:
     return None
 
 
-def _require_inputs(original: Run) -> None:
-    """Refuse a recording that is damaged where what came from outside may have been."""
-    if original.log_damage and depends_on_log(original.info):
+def _require_inputs(original: Run, is_rescored: bool) -> None:
+    """Refuse a recording that is damaged where what is taken from it may have been."""
+    if original.log_damage and (is_rescored or depends_on_log(original.info)):
         raise RunFolderError(
-            f"{original.folder.path}: {original.log_damage}; a replay needs it, because other "
-            "programs or services took part in the run"
+            f"{original.folder.path}: {original.log_damage}; it is needed here, because what "
+            "workers, other programs or services said is taken from it"
         )
 
 

@@ -9,10 +9,15 @@ from http.server import HTTPServer
 from pathlib import Path
 from typing import Any
 
+import pytest
+from click.testing import CliRunner
+
 import airhilt
 from airhilt import Scenario
-from airhilt.cosim.replay import replay
+from airhilt.cli.commands.rescore import COMMAND
+from airhilt.cosim.replay import replay, rescore
 from airhilt.messages import Event, Severity
+from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
 from notices import Notices
 from paths import ROOT
@@ -55,7 +60,40 @@ def test_the_example_warns_both_crews_and_its_run_replays_without_it(
         and (event := Event.model_validate_json(logged.data)).kind == "pilot_reacts"
     ]
     assert {event.subject for event in reactions} == {"AAL123", "DAL456"}
+    assert summary.conflict_outcome == "avoided"
     assert replay(result.folder).identical
+    assert scored(rescore(result.folder)[0]) == scored(summary)
+    runner = CliRunner()
+    assert runner.invoke(COMMAND, [str(result.folder)]).output.endswith("the same scores\n")
+    path = result.folder / "summary.json"
+    path.write_text(path.read_text().replace('"avoided": true', '"avoided": false'))
+    told = runner.invoke(COMMAND, [str(result.folder)])
+    assert "summary.json/avoided: recorded False, now True" in told.output
+    assert told.exit_code == 1
+
+
+def scored(summary: Summary) -> dict[str, Any]:
+    return summary.model_dump(exclude={"real_time_factor", "cpu_s", "too_slow", "latency_sources"})
+
+
+@pytest.mark.parametrize(
+    "lie",
+    [
+        {"evidence": {"sources": ["radio"], "radio_ids": ["of another run"]}},
+        {"evidence": {"sources": ["adsb"], "tracks": ["abcdef"]}},
+        {"traffic": ["AAL123"]},
+        {"traffic": ["NOBODY9", "AAL123"]},
+    ],
+)
+def test_who_says_what_cannot_be_known_has_warned_nobody_of_the_conflict(
+    lie: dict[str, Any], encounter: Scenario, tmp_path: Path
+) -> None:
+    told = STRANGER | {"recipients": ["AAL123", "DAL456"]} | lie
+    with service(answering(json.dumps({"advisories": [told]}).encode())) as url:
+        run = airhilt.run(encounter, out=tmp_path / "run", assistant=url, **OPTIONS)
+    assert run.summary.modalities["decision"] == "on"
+    assert run.summary.advisories
+    assert run.summary.t_first_warning_s is None
 
 
 def test_a_service_that_fails_is_a_lost_worker_and_the_run_goes_on(
