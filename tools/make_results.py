@@ -74,10 +74,9 @@ def _make(given: argparse.Namespace) -> int:
         _tell_sizes(chosen, wanted)
         for section in chosen:
             made = section.make(wanted)
-            if made is None:
-                return INTERRUPTED
-            is_complete &= made
-            write_code(given.work / section.name, code)
+            if made is not None:
+                is_complete &= made
+                write_code(given.work / section.name, code)
     Page.of(SECTIONS, given.work, given.dirty).write(given.page)
     tell(f"wrote {given.page}")
     return 0 if is_complete else INCOMPLETE

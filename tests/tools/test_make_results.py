@@ -100,6 +100,13 @@ def test_a_placeholder_that_names_nothing_is_an_error_that_names_it(
         page_of(tmp_path, f"A {{{placeholder}}}.")
 
 
+def test_a_note_that_tables_of_a_section_share_stands_under_the_first(tmp_path: Path) -> None:
+    tables = [RANKING.model_copy(update={"name": name, "notes": ("Why.",)}) for name in "ab"]
+    write_section(tmp_path / "work", "paper", tables)
+    text = page_of(tmp_path, "{table paper.a}\n\n{table paper.b}")
+    assert (text.count("Why."), text.count("| one ")) == (1, 4)
+
+
 def test_what_was_not_run_is_named_as_missing(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     words = ["--page-only", "--work", str(tmp_path / "work"), "--page", str(page)]

@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import Any
 
 from airhilt.report.figures import COLOURS, MARKERS, PANEL, Figures
-from airhilt.sweep.evaluation.tables import Quantity, Table
+from airhilt.sweep.evaluation.tables import Cell, Quantity, Table
 
 WIDTH_IN, HEIGHT_IN = 5.6, 3.8
 
@@ -40,21 +40,24 @@ class Scatter:
     def _series(self, table: Table) -> Iterator[tuple[str, list[tuple[Quantity, Quantity]]]]:
         x, y = table.columns.index(self.x), table.columns.index(self.y)
         for label, rows in groupby(table.rows, key=lambda row: row[0]):
-            points = [
-                (row[x], row[y])
-                for row in rows
-                if isinstance(row[x], Quantity) and isinstance(row[y], Quantity)
-            ]
-            yield str(label), points  # type: ignore[misc]
+            yield str(label), [pair for row in rows if (pair := _known(row[x], row[y]))]
+
+
+def _known(x: Cell, y: Cell) -> tuple[Quantity, Quantity] | None:
+    """Return two cells if both have a number."""
+    if isinstance(x, Quantity) and isinstance(y, Quantity) and None not in (x.value, y.value):
+        return x, y
+    return None
 
 
 def _plot(axes: Any, place: int, label: str, points: list[tuple[Quantity, Quantity]]) -> None:
-    known = [(x, y) for x, y in points if x.value is not None and y.value is not None]
     colour = COLOURS[place % len(COLOURS)]
-    for x, y in known:
+    limits = {"color": colour, "linewidth": 0.8, "alpha": 0.5}
+    for x, y in points:
         if x.low is not None:
-            axes.plot([x.low, x.high], [y.value, y.value], color=colour, linewidth=0.8, alpha=0.5)
+            axes.plot([x.low, x.high], [y.value, y.value], **limits)
         if y.low is not None:
-            axes.plot([x.value, x.value], [y.low, y.high], color=colour, linewidth=0.8, alpha=0.5)
-    axes.plot([x.value for x, _ in known], [y.value for _, y in known], color=colour, label=label,
-              marker=MARKERS[place % len(MARKERS)], markersize=5, linewidth=1.0)  # fmt: skip
+            axes.plot([x.value, x.value], [y.low, y.high], **limits)
+    axes.plot([x.value for x, _ in points], [y.value for _, y in points], color=colour,
+              label=label, marker=MARKERS[place % len(MARKERS)], markersize=5,
+              linewidth=1.0)  # fmt: skip

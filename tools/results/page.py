@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -112,7 +112,10 @@ class Page:
 
         filled = PLACEHOLDER.sub(fill, text)
         record = self.records.get(name)
-        return f"{filled}\n\n{_origin(record.code)}" if record and self._is_draft else filled
+        if record is None:
+            return filled
+        filled = _with_notes_once(filled, record.tables.values())
+        return f"{filled}\n\n{_origin(record.code)}" if self._is_draft else filled
 
     def _value(self, placeholder: str) -> str | None:
         """Return what stands in place of a placeholder; None if it names nothing."""
@@ -212,6 +215,16 @@ def _text(cell: Cell) -> str:
 def _plain(table: Table) -> str:
     """Return a table without its title."""
     return table.markdown().partition("\n\n")[2].strip()
+
+
+def _with_notes_once(text: str, tables: Iterable[Table]) -> str:
+    """Return the text of a section; a note of several tables stays under the first of them."""
+    notes = {note for table in tables for note in table.notes}
+    kept: list[str] = []
+    for paragraph in text.split("\n\n"):
+        if paragraph not in notes or paragraph not in kept:
+            kept.append(paragraph)
+    return "\n\n".join(kept)
 
 
 def _without_body(name: str, text: str, missing: str) -> str:

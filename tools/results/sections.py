@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-import click
 import numpy as np
 from rich.console import Console
 from rich.progress import track
@@ -93,7 +92,12 @@ class Section(Protocol):
         Returns
         -------
         bool or None
-            Whether all runs finished; None if the user stopped it, or there is nothing to write.
+            Whether all runs finished; None if there is nothing to write.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            The user stopped it; what was finished is kept.
         """
 
 
@@ -113,7 +117,7 @@ class PresetSection:
 
     def size(self, wanted: Wanted) -> Size:
         """Return the sum over the sweeps, each by a run that is tried."""
-        found = estimates(*self._work(wanted), lambda name: tell(f"{self.name}: tries {name}"))
+        found = estimates(*self._work(wanted), lambda name: tell(f"{self.name}: estimates {name}"))
         return Size(
             runs=sum(each.runs for each in found.values()),
             left=sum(each.runs - each.finished for each in found.values()),
@@ -123,7 +127,9 @@ class PresetSection:
     def make(self, wanted: Wanted) -> bool | None:
         """Run the sweeps, each from where it was stopped."""
         found = evaluate(*self._work(wanted), lambda name: sweep_progress(name, quiet=False))
-        return None if found is None else found.is_complete
+        if found is None:
+            raise KeyboardInterrupt
+        return found.is_complete
 
     def _work(self, wanted: Wanted) -> tuple[Preset, Choice, Work]:
         preset: Preset = FAMILY.load(self.name)
@@ -246,7 +252,7 @@ class Procedures:
             raise AirhiltError(f"{' '.join(command[1:])}: ended with {done.returncode}")
         rows = [row for row in json.loads(done.stdout) if "published" in row]
         if not rows:
-            click.echo("procedures: no number has a published one beside it", err=True)
+            tell(f"{self.name}: left out, no number of the benchmark has a published one beside it")
             return None
         document = {"tables": [published_table(rows).model_dump(mode="json")]}
         write_document(wanted.work / self.name, document)
