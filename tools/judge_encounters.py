@@ -20,7 +20,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -49,6 +48,9 @@ MANNERS: tuple[tuple[Manner, Manner], ...] = (
     ("follows", "opposite"),
 )
 """Manners of the two crews, in closed loop."""
+CREWS = tuple(Crews(model, manners) for model in RESPONSE_MODELS for manners in MANNERS)
+Counts = dict[str, int]
+"""Near mid-air collisions of one encounter (0 or 1 of each kind), alerts and reversals."""
 
 
 def main() -> None:
@@ -79,26 +81,10 @@ def main() -> None:
 
 def print_closed_loop(given: argparse.Namespace) -> None:
     """Fly close encounters with crews that act, and print what they came to."""
-    every = [Crews(model, manners) for model in RESPONSE_MODELS for manners in MANNERS]
-    counts = {crews: Counter[str]() for crews in every}
-    for number in track(range(given.count), "flying", disable=given.json, transient=True):
-        encounter = draw_close(np.random.default_rng((given.seed, number)))
-        unassisted = closed_loop.fly_on(encounter)
-        for crews in every:
-            engine = ASSISTANTS.create(given.assistant)
-            flown = closed_loop.fly(encounter, engine, crews, given.seed + number)
-            counts[crews].update(
-                unassisted=int(unassisted.is_nmac),
-                unresolved=int(flown.is_nmac and unassisted.is_nmac),
-                induced=int(flown.is_nmac and not unassisted.is_nmac),
-                alerts=flown.alerts,
-                reversals=flown.reversals,
-            )
-    rows = [
-        {"crews": crews.model, "first": one, "second": other, **counts[crews]}
-        for crews in every
-        for one, other in (crews.manners,)
-    ]
+    numbers = track(range(given.count), "flying", disable=given.json, transient=True)
+    rows = closed_loop_rows(
+        [closed_loop_counts(number, given.seed, given.assistant) for number in numbers]
+    )
     if given.json:
         print(json.dumps({"encounters": given.count, "rows": rows}, indent=2))
         return
@@ -106,6 +92,35 @@ def print_closed_loop(given: argparse.Namespace) -> None:
     for row in rows:
         table.add_row(*map(str, row.values()))
     Console().print(table)
+
+
+def closed_loop_counts(number: int, seed: int, assistant: str) -> list[Counts]:
+    """Fly a close encounter once with each of `CREWS`; return what it came to, in their order."""
+    encounter = draw_close(np.random.default_rng((seed, number)))
+    unassisted = closed_loop.fly_on(encounter)
+    counts = []
+    for crews in CREWS:
+        flown = closed_loop.fly(encounter, ASSISTANTS.create(assistant), crews, seed + number)
+        counts.append(
+            {
+                "unassisted": int(unassisted.is_nmac),
+                "unresolved": int(flown.is_nmac and unassisted.is_nmac),
+                "induced": int(flown.is_nmac and not unassisted.is_nmac),
+                "alerts": flown.alerts,
+                "reversals": flown.reversals,
+            }
+        )
+    return counts
+
+
+def closed_loop_rows(encounters: Sequence[Sequence[Counts]]) -> list[dict[str, int | str]]:
+    """Return the sums over encounters for each of `CREWS`."""
+    rows: list[dict[str, int | str]] = []
+    for crews, counts in zip(CREWS, zip(*encounters, strict=True), strict=True):
+        first, second = crews.manners
+        sums = {name: sum(one[name] for one in counts) for name in counts[0]}
+        rows.append({"crews": crews.model, "first": first, "second": second, **sums})
+    return rows
 
 
 def judged(outcomes: Sequence[Outcome]) -> dict[str, float | int | list[int] | None]:

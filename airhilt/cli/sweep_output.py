@@ -132,6 +132,15 @@ class SweepProgress(SweepObserver):
         return duration((self._total - self._done) / max(self._per_second(), 1e-9))
 
 
+@contextmanager
+def sweep_progress(name: str, quiet: bool) -> Iterator[SweepProgress]:
+    """Show how one sweep of several is doing; it stops after the runs in hand if the user asks."""
+    if not quiet:
+        click.echo(f"{name}:", err=True)
+    with SweepProgress(quiet) as progress, progress.interruptible():
+        yield progress
+
+
 def duration(seconds: float) -> str:
     """Return a time in words, such as ``2 h 05 min``."""
     if seconds < 90.0:

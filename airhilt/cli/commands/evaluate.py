@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,8 +13,6 @@ from airhilt.cli.parameters import FOLDER, INTERRUPTED, CommandWithFlags
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:
-    from airhilt.cli.sweep_output import SweepProgress
-    from airhilt.sweep.estimate import Estimate
     from airhilt.sweep.evaluation.engine import Evaluation
     from airhilt.sweep.evaluation.preset import Choice, Preset
     from airhilt.sweep.work import Work
@@ -71,6 +67,7 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
     missing. Exit code 0 if every run finished, else 1: the tables say how many did not.
     """
     from airhilt.cli.run_flags import options_given
+    from airhilt.cli.sweep_output import sweep_progress
     from airhilt.sweep.evaluation.engine import evaluate as run_evaluation
     from airhilt.sweep.evaluation.preset import Choice
     from airhilt.sweep.evaluation.presets import FAMILY
@@ -84,22 +81,11 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
     if given["dry_run"]:
         _print_estimates(preset, choice, work, given["as_json"], quiet)
         return 0
-    evaluation = run_evaluation(preset, choice, work, lambda name: _progress(name, quiet))
+    evaluation = run_evaluation(preset, choice, work, lambda name: sweep_progress(name, quiet))
     if evaluation is None:
         return INTERRUPTED
     _print(evaluation, given["as_json"], quiet)
     return 0 if evaluation.is_complete else 1
-
-
-@contextmanager
-def _progress(name: str, quiet: bool) -> Iterator[SweepProgress]:
-    """Show how one sweep is doing; it stops after the runs in hand if the user asks."""
-    from airhilt.cli.sweep_output import SweepProgress
-
-    if not quiet:
-        click.echo(f"{name}:", err=True)
-    with SweepProgress(quiet) as progress, progress.interruptible():
-        yield progress
 
 
 def _print(evaluation: Evaluation, as_json: bool, quiet: bool) -> None:
@@ -115,17 +101,16 @@ def _print_estimates(
     preset: Preset, choice: Choice, work: Work, as_json: bool, quiet: bool
 ) -> None:
     """Print the size of each sweep; one run of each is tried."""
-    from dataclasses import asdict, replace
+    from dataclasses import asdict
 
     from airhilt.cli.sweep_output import print_estimate
-    from airhilt.sweep.estimate import estimate
-    from airhilt.sweep.evaluation.engine import specifications_of
+    from airhilt.sweep.evaluation.engine import estimates
 
-    found: dict[str, Estimate] = {}
-    for name, specification in specifications_of(preset, choice).items():
+    def told(name: str) -> None:
         if not quiet:
             tell(f"{name}: checks all runs, and does one of those that are left")
-        found[name] = estimate(specification, replace(work, out=work.out / name))
+
+    found = estimates(preset, choice, work, told)
     if as_json:
         click.echo(json.dumps({name: asdict(each) for name, each in found.items()}, indent=2))
         return

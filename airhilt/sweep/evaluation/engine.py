@@ -15,6 +15,7 @@ from airhilt.report.evaluation.tables import render
 from airhilt.report.figures import Figures
 from airhilt.sweep.cases import cases
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
+from airhilt.sweep.estimate import Estimate, estimate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
 from airhilt.sweep.evaluation.tables import Table
 from airhilt.sweep.specification import Specification
@@ -153,6 +154,28 @@ def evaluate(
     evaluation = Evaluation(work.out, preset.name, choice, sweeps, tables)
     evaluation.write()
     return evaluation
+
+
+def estimates(
+    preset: Preset, choice: Choice, work: Work, told: Callable[[str], None]
+) -> dict[str, Estimate]:
+    """Return the size of each sweep of a preset by its name; one run of each is tried.
+
+    Parameters
+    ----------
+    told
+        Is told the name of a sweep before its run is tried.
+
+    Raises
+    ------
+    AirhiltError
+        A run cannot be as it is asked for, or the one that is tried fails.
+    """
+    found: dict[str, Estimate] = {}
+    for name, specification in specifications_of(preset, choice).items():
+        told(name)
+        found[name] = estimate(specification, replace(work, out=work.out / name))
+    return found
 
 
 def specifications_of(preset: Preset, choice: Choice) -> Mapping[str, Specification]:
