@@ -34,6 +34,7 @@ import argparse
 import importlib
 import itertools
 import json
+import math
 import sys
 from collections.abc import Iterable
 from typing import Any
@@ -118,6 +119,15 @@ def measured(name: str, bluesky_python: str) -> dict[str, float]:
     return numbers
 
 
+def _finite(value: Any) -> Any:
+    """Return a value as JSON has it: null for the open end of a range."""
+    if isinstance(value, dict):
+        return {name: _finite(one) for name, one in value.items()}
+    if isinstance(value, tuple):
+        return [_finite(one) for one in value]
+    return None if isinstance(value, float) and math.isinf(value) else value
+
+
 def print_rows(rows: Iterable[Any], *, as_json: bool) -> list[Any]:
     """Print the rows of a benchmark, line by line as they are measured; return them."""
     done = []
@@ -126,7 +136,7 @@ def print_rows(rows: Iterable[Any], *, as_json: bool) -> list[Any]:
         if not as_json:
             print(row, flush=True)
     if as_json:
-        print(json.dumps([row._asdict() for row in done], indent=2))
+        print(json.dumps([_finite(row._asdict()) for row in done], indent=2))
     return done
 
 

@@ -161,9 +161,7 @@ def _rows(summary: Summary) -> Iterator[tuple[str, str]]:
     ]
     if stale:
         yield "stale evidence", "; ".join(stale)
-    states = summary.modalities.items()
-    present = (f"{name} {state}" for name, state in states)
-    yield "modalities", ", ".join(present)
+    yield "modalities", ", ".join(f"{name} {state}" for name, state in summary.modalities.items())
     for actor, cause in summary.ended_actors.items():
         yield f"{actor} ended", cause
 

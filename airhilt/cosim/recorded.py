@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -130,6 +130,7 @@ def read_recorded(
     breaks_off = info.phase != "finished"
     taken = [one.description for one in info.workers] if every_worker else _elsewhere(info)
     workers = {each.name: each for each in taken}
+    takes_sound = _is_spoken_elsewhere(info.options) or (every_worker and info.options.speech)
     attached = {worker.description.name for worker in info.workers if worker.where == "attached"}
     programs = tuple(set(info.options.attach) - attached)
     events = [
@@ -148,17 +149,13 @@ def read_recorded(
         unavailable_reason=_unavailable_reason(log),
         cameras_lost=next(iter(cameras_lost), None),
         has_pictures=any(logged.key.startswith("camera/") for logged in log),
-        sound=_sound(folder, log) if _is_spoken_elsewhere(info.options) else None,
+        sound=_sound(folder, log) if takes_sound else None,
         workers=tuple(
             Participant(each, _worker(name, folder, latencies, log), where="attached")
             for name, each in workers.items()
         ),
         programs=programs,
-        losses={
-            name: loss
-            for name, loss in latencies.losses.items()
-            if name in programs or (name in workers and not _is_lost_in_step(name, latencies))
-        },
+        losses=_losses_between_steps(latencies, programs, workers),
         unregistered=tuple(
             UnregisteredMessage(logged.key, logged.t_ns, logged.data)
             for logged in log
@@ -193,6 +190,16 @@ def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
 
 def _is_spoken_elsewhere(options: Options) -> bool:
     return options.speech and VOICES.choose(options.tts)[0].is_remote
+
+
+def _losses_between_steps(
+    latencies: RecordedLatencies, programs: Collection[str], workers: Collection[str]
+) -> dict[str, Loss]:
+    return {
+        name: loss
+        for name, loss in latencies.losses.items()
+        if name in programs or (name in workers and not _is_lost_in_step(name, latencies))
+    }
 
 
 def _is_lost_in_step(name: str, latencies: RecordedLatencies) -> bool:

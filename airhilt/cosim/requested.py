@@ -116,7 +116,9 @@ def _radars(kind: RadarKind, scenario: Scenario) -> Iterable[Radar]:
     return (Radar(name=name, kind=kind, position=position),)
 
 
-def requested_latency(text: str | None, scenario: Scenario, seed: int) -> LatencySpec:
+def requested_latency(
+    text: str | None, scenario: Scenario, seed: int, *, twin: bool = False
+) -> LatencySpec:
     """Return the latency source of a text such as ``fixed,asr=lognormal:5.9`` or ``replay:RUN``.
 
     None stands for the default.
@@ -140,6 +142,11 @@ def requested_latency(text: str | None, scenario: Scenario, seed: int) -> Latenc
     earlier = open_run(spec.replay_of, untold)
     info = earlier.info
     name = info.scenario.get("name")
+    if info.options.twin != twin:
+        raise AirhiltError(
+            f"latency {text}: of that run and this one, one is of the nominal twin of {name!r} and "
+            "one is not; expected both or none"
+        )
     if (name, info.options.seed) != (scenario.name, seed):
         raise AirhiltError(
             f"latency {text}: that run is of {name!r} with seed {info.options.seed}; expected "

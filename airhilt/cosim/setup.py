@@ -126,7 +126,7 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
 
 
 def _requested_latency(given: Scenario, options: Options) -> LatencySpec:
-    latency = requested_latency(options.latency, given, options.seed)
+    latency = requested_latency(options.latency, given, options.seed, twin=options.twin)
     if options.share_pictures and is_vision_measured(latency, options.detector):
         raise AirhiltError(
             "--share-pictures: the latency of vision is measured, so a detection would be as late "

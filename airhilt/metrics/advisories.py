@@ -11,6 +11,7 @@ from airhilt.messages import (
     SPEAK_MIN_LEVEL,
     Advisory,
     AdvisoryKind,
+    Confirm,
     Severity,
 )
 from airhilt.metrics.summary import AdvisorySummary, RunwayIncursion
@@ -49,6 +50,8 @@ class AdvisoryRecord:
     severity: Severity = Severity.INFO
     """Highest severity of all revisions."""
     revisions: set[int] = field(default_factory=set)
+    is_question: bool = True
+    """True if all that it asks of anybody is to confirm what was heard."""
     unfounded: dict[str, None] = field(default_factory=dict)
     """What it says that it rests on and cannot, in its order."""
     last_s: float = 0.0
@@ -90,6 +93,7 @@ class AdvisoryRecords:
         if advisory.revision in record.revisions:
             return False
         record.revisions.add(advisory.revision)
+        record.is_question &= _is_question(advisory)
         record.unfounded |= dict.fromkeys(unfounded)
         record.last_s = advisory.t_ns / SECOND_NS
         record.severity = max(record.severity, advisory.severity, key=lambda one: one.rank)
@@ -114,7 +118,7 @@ class AdvisoryRecords:
         reaches_somebody = advisory.recipient == CONTROLLER or advisory.recipient in self._callsigns
         return (
             advisory.active
-            and advisory.kind != CLARIFICATION
+            and not _is_question(advisory)
             and advisory.severity.rank >= SPEAK_MIN_LEVEL.rank
             and reaches_somebody
             and self._concerns_conflict(advisory)
@@ -131,7 +135,7 @@ class AdvisoryRecords:
 
     def clarifications(self) -> int:
         """Return the number of questions for what was heard in doubt."""
-        return sum(record.first.kind == CLARIFICATION for record in self._records.values())
+        return sum(record.is_question for record in self._records.values())
 
     def summaries(self, incursions: Iterable[RunwayIncursion]) -> list[AdvisorySummary]:
         """Return each advisory with its course."""
@@ -198,7 +202,7 @@ class AdvisoryRecords:
         happen.
         """
         traffic = tuple(record.traffic)
-        if record.first.kind == CLARIFICATION:
+        if record.is_question:
             return ()
         in_conflict: set[str] = set()
         if record.concerns_conflict:
@@ -215,6 +219,12 @@ class AdvisoryRecords:
         return tuple(
             name for name in traffic if name in self._callsigns and name not in in_conflict
         )
+
+
+def _is_question(advisory: Advisory) -> bool:
+    """Return whether an advisory is a clarification, and tells nobody to do anything else."""
+    told = (advisory.recommendation, *advisory.recommendations.values())
+    return advisory.kind == CLARIFICATION and all(isinstance(one, Confirm | None) for one in told)
 
 
 def _involved(incursions: Iterable[RunwayIncursion]) -> list[Involved]:

@@ -166,6 +166,8 @@ class Collector:
             self._latencies.add("decision", advisory.t_ready_ns, advisory.t_ns)
         if advisory.active:
             self.last_advisory = advisory
+        else:
+            self._first_warning.ended(advisory.id)
         is_founded = self._deliveries.is_founded(advisory, self._scenario.pair or ())
         if is_founded and self._advisories.warns_of_conflict(advisory):
             is_voiced = self.modalities.get("tts") == "on" or self._is_called(advisory.recipient)

@@ -103,7 +103,6 @@ class Deliveries:
         """Return the names that an advisory rests on and cannot: unknown, later, or of others."""
         evidence, had = advisory.evidence, self._had(advisory)
         named = self._known(*advisory.traffic)
-        is_about_others = len(named) < len(advisory.traffic)
         cited: Iterator[tuple[Kind, str]] = (
             *(("radio", name) for name in evidence.radio_ids),
             *(("camera", name) for name in evidence.camera_ids),
@@ -114,24 +113,28 @@ class Deliveries:
             for kind, name in cited
             if (item := self._items.get((kind, name))) is None
             or not had(item.keys)
-            or not (kind == "camera" or is_about_others or item.concerns & named)
+            or (item.concerns and not item.concerns & named)
         )
 
     def is_founded(self, advisory: Advisory, actors: Sequence[str]) -> bool:
         """Return whether an advisory can be a warning of actors by what its decider had been given.
 
         Something of each of them on the roster had reached it, and what it cites is not all
-        unfounded.
+        unfounded. A target without a name may be one of them, if that of the other is known.
         """
         evidence, had = advisory.evidence, self._had(advisory)
         cited = {*evidence.radio_ids, *evidence.camera_ids, *filter(ADDRESS.match, evidence.tracks)}
         if cited and cited == set(self.unfounded(advisory)):
             return False
-        return had(self._nameless) or all(
-            self._was_seen(actor, 0)
-            or any(actor in item.concerns and had(item.keys) for item in self._items.values())
+        given = [(kind, item) for (kind, _), item in self._items.items() if had(item.keys)]
+        is_watched = any(kind == "camera" for kind, _ in given)
+        unknown = [
+            actor
             for actor in self._roster.intersection(actors)
-        )
+            if not any(actor in item.concerns for _, item in given)
+            and not (is_watched and self._was_seen(actor, 0))
+        ]
+        return not unknown or (len(unknown) == 1 and had(self._nameless))
 
     def _had(self, advisory: Advisory) -> Callable[[Mapping[str, int]], bool]:
         """Return what tells whether the decider of an advisory had one of some first messages."""

@@ -48,7 +48,8 @@ def _warned_in_time(summary: Json) -> bool | None:
 
 def _missed(summary: Json) -> bool | None:
     outcome = summary.get("conflict_outcome")
-    return None if outcome is None or _nominal(summary) else outcome == "missed"
+    is_none = outcome in (None, "no_conflict") or _nominal(summary)
+    return None if is_none else outcome == "missed"
 
 
 def _lost(summary: Json) -> bool:
@@ -123,7 +124,7 @@ DERIVED = (
         "missed",
         "bool",
         "nobody was warned before the conflict window closed, and it opened or the pair came to "
-        "harm; null if the scenario declares no conflict",
+        "harm; null if no conflict came about",
         _missed,
     ),
     Derived(

@@ -48,6 +48,12 @@ class FirstWarning:
         else:
             self._add(advisory, advisory.t_ns)
 
+    def ended(self, advisory_id: str) -> None:
+        """Record that an advisory is not active any more: what was not said of it never will be."""
+        self._unspoken = {
+            name: one for name, one in self._unspoken.items() if one.id != advisory_id
+        }
+
     def heard(self, name: tuple[str, str, int], t_ns: int) -> None:
         """Record when the voice of an advisory began, by its id, recipient and revision."""
         spoken = self._unspoken.pop(name, None)

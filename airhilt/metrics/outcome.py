@@ -111,14 +111,16 @@ class Outcome:
         has_opened
             Its window opened.
         is_credited
-            That warning came before equipment told anybody what to do.
+            Somebody was warned before equipment told anybody what to do.
         """
         avoided = self.avoided(was_warned=is_credited)
         if avoided:
             return "avoided"
         if avoided is False:
             return "lost" if was_warned or self._pair is None else "missed"
-        return "missed" if has_opened and not was_warned else "no_conflict"
+        if was_warned:
+            return "avoided_by_equipment"
+        return "missed" if has_opened else "no_conflict"
 
     def _pair_in_serious_incursion(self) -> bool:
         pair = set(self._pair or ())

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from airhilt.messages import ModalityState, NasaTlx, Severity
 from airhilt.world.truth.runways import IncursionCategory
 
-ConflictOutcome = Literal["avoided", "lost", "missed", "no_conflict"]
+ConflictOutcome = Literal["avoided", "avoided_by_equipment", "lost", "missed", "no_conflict"]
 
 
 class _Part(BaseModel):
@@ -529,7 +529,8 @@ class Summary(_Part):
     )
     conflict_outcome: ConflictOutcome = Field(
         default="no_conflict",
-        description="what became of the annotated conflict: avoided, as above; lost: it came to "
+        description="what became of the annotated conflict: avoided, as above; "
+        "avoided_by_equipment: likewise, but equipment of the world acted first; lost: it came to "
         "harm all the same, or any two did where none is annotated; missed: nobody was warned, and "
         "its window opened or it came to harm; no_conflict: none of these",
     )

@@ -276,7 +276,7 @@ class RunChecks:
     def _require_latency(self, options: Options, scenario: Scenario) -> None:
         is_replay = options.latency is not None and options.latency.startswith(REPLAY)
         for seed in self._seeds if is_replay else self._seeds[:1]:
-            requested_latency(options.latency, scenario, seed)
+            requested_latency(options.latency, scenario, seed, twin=options.twin)
 
     def _require_channel(self, options: Options, scenario: Scenario) -> None:
         if not options.speech:

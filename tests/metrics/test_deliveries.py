@@ -9,6 +9,7 @@ import pytest
 from airhilt.messages import (
     AdsbReport,
     Advisory,
+    Detections,
     Evidence,
     RadarPlot,
     Severity,
@@ -27,8 +28,9 @@ class Followed:
     """A decider that subscribes to transponders and transcripts, and what is published."""
 
     def __init__(self, seen: tuple[str, ...] = ()) -> None:
+        keys = ["adsb/*", "asr/*", "radar/*", "vision/*"]
         self.deliveries = Deliveries(
-            {"wolf": ["adsb/*", "asr/*"]}, CALLSIGNS, PAIR, lambda actor, _: actor in seen
+            {"wolf": keys}, CALLSIGNS, PAIR, lambda actor, _: actor in seen
         )
 
     def reported(self, icao24: str, t_s: float) -> Followed:
@@ -47,11 +49,13 @@ class Followed:
         self.deliveries.step(StepRecord("wolf", 0, _ns(t_s), _ns(t_s), 0, 0.0, 0))
         return self
 
-    def judged(self, name: str = "wolf-1", **evidence: Any) -> tuple[bool, tuple[str, ...]]:
+    def judged(
+        self, name: str = "wolf-1", traffic: tuple[str, ...] = PAIR, **evidence: Any
+    ) -> tuple[bool, tuple[str, ...]]:
         """Return whether a warning of the pair at 60 s is founded, and what of it is not."""
         advisory = Advisory(
             t_ns=_ns(60.0), id=name, revision=0, recipient="AAL1", recipients=PAIR,
-            kind="loss_of_separation", severity=Severity.WARNING, traffic=PAIR, message="",
+            kind="loss_of_separation", severity=Severity.WARNING, traffic=traffic, message="",
             evidence=Evidence(sources=("radio",), **evidence), t_ready_ns=0,
         )  # fmt: skip
         return self.deliveries.is_founded(advisory, PAIR), self.deliveries.unfounded(advisory)
@@ -105,14 +109,25 @@ def test_what_is_cited_must_exist_be_earlier_and_concern_who_is_named(
     assert followed.judged(**evidence) == (not unfounded or len(cited) > 1, unfounded)
 
 
-def test_who_is_not_told_of_by_any_message_may_have_been_seen() -> None:
+def test_who_is_not_told_of_by_any_message_may_have_been_seen_by_a_camera_of_the_decider() -> None:
     followed = Followed(seen=("DAL2",)).reported("aaaaa1", 3.0).decides(4.0)
+    assert followed.judged() == (False, ())
+    found = Detections.model_construct(**cast(Any, {"camera": "nose", "t_ns": _ns(3.0)}))
+    followed.deliveries.take("vision/nose", found)
     assert followed.judged() == (True, ())
 
 
-def test_a_radar_plot_may_be_of_anybody() -> None:
-    followed = Followed()
-    followed.deliveries = Deliveries({"wolf": ["radar/*"]}, CALLSIGNS, PAIR, lambda *_: False)
+def test_a_target_without_a_name_may_be_one_of_the_two_and_not_both() -> None:
     plot = RadarPlot.model_construct(**cast(Any, {"t_ns": _ns(3.0)}))
+    followed = Followed()
     followed.deliveries.take("radar/tower", plot)
-    assert followed.decides(4.0).judged() == (True, ())
+    assert followed.decides(4.0).judged() == (False, ())
+    assert followed.reported("aaaaa1", 3.0).judged() == (True, ())
+
+
+def test_a_name_that_nobody_has_makes_no_call_of_others_an_evidence() -> None:
+    followed = both_reported(3.0).said("unrelated", 4.0, "UAL3", "Tower").decides(6.0)
+    followed.said("of the ground", 4.0, "Ops one", "Tower")
+    ghost = (*PAIR, "GHOST")
+    assert followed.judged(traffic=ghost, radio_ids=("unrelated",)) == (False, ("unrelated",))
+    assert followed.judged(traffic=ghost, radio_ids=("of the ground",)) == (True, ())

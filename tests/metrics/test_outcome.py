@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import pytest
 
-from airhilt.messages import Advisory, Evidence, Severity
+from airhilt.messages import Advisory, Confirm, Evidence, GoAround, Severity
 from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.outcome import Outcome
 from airhilt.metrics.summary import RunwayIncursion
@@ -86,6 +86,16 @@ def test_what_came_about_is_that_or_worse() -> None:
     assert lost.came_about("nmac")
     assert not lost.came_about("collision")
     assert lost.avoided(was_warned=True) is False
+
+
+@pytest.mark.parametrize("was_warned", [False, True])
+@pytest.mark.parametrize("has_opened", [False, True])
+def test_what_equipment_averts_before_a_warning_is_no_merit_of_the_assistant(
+    was_warned: bool, has_opened: bool
+) -> None:
+    found = outcome({PAIR: PairTruth()}, PAIR).conflict(was_warned, has_opened, is_credited=False)
+    unwarned = "missed" if has_opened else "no_conflict"
+    assert found == ("avoided_by_equipment" if was_warned else unwarned)
 
 
 # --- advisories ---------------------------------------------------------------------------------
@@ -216,3 +226,22 @@ def test_each_revision_counts_once_and_the_gravest_of_all() -> None:
     (summary,) = told.summaries([])
     assert (summary.t_first_s, summary.t_spoken_s) == (100.0, 105.0)
     assert (summary.severity, summary.revisions) == (Severity.CAUTION, 3)
+
+
+@pytest.mark.parametrize(
+    ("told", "counts"),
+    [(Confirm(callsign="AAL1", slot="runway"), False), (GoAround(runway="01"), True)],
+)
+def test_a_question_is_one_only_if_it_tells_nobody_what_to_do(told: Any, counts: bool) -> None:
+    given = records(None)
+    given.add(advisory(kind="clarification", severity=Severity.WARNING, recommendation=told))
+    assert bool(given.nuisance_alerts([])) is counts
+    assert given.clarifications() == (not counts)
+
+
+def test_a_question_that_becomes_an_alert_was_none() -> None:
+    given = records(None)
+    given.add(advisory(kind="clarification"))
+    given.add(advisory(revision=1, severity=Severity.WARNING))
+    assert given.nuisance_alerts([])
+    assert not given.clarifications()

@@ -201,9 +201,10 @@ def test_avoided_lost_missed_and_no_conflict_exclude_each_other_and_cover_all(
         "missed": not row["warned"] and (bool(harm) or has_opened),
         "no_conflict": not row["warned"] and not harm and not has_opened,
     }
+    conflict_less = summary.conflict_outcome == "no_conflict"
     assert [name for name, holds in expected.items() if holds] == [summary.conflict_outcome]
     assert (summary.avoided is True) is (summary.conflict_outcome == "avoided")
-    assert row["missed"] is (summary.conflict_outcome == "missed")
+    assert row["missed"] is (None if conflict_less else summary.conflict_outcome == "missed")
 
 
 def unassisted(followed: FollowedRun, assistant: str = "none") -> bool | None:

@@ -50,7 +50,7 @@ def test_a_picture_says_who_was_found_in_it_how_far_off_and_how_late(folder: Pat
     assert (detection["label"], detection["confidence"]) == ("airplane", 0.8)
     assert detection["actor"] == truth["actor"]
     assert truth["found"] is True
-    assert detection["range_m"] == truth["range_m"] == pytest.approx(4_140, abs=50)
+    assert detection["range_m"] == truth["range_m"] == pytest.approx(4_045, abs=50)
     assert detection["box"] == pytest.approx(truth["box"], abs=3.0)
     assert picture["latency_s"] == pytest.approx(0.05)
 

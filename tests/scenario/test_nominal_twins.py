@@ -48,7 +48,6 @@ def changed(**fields: object) -> Scenario:
         ({"nominal_twin": {"actors/DAL465/initial/altitude_ft": 36000}}, "no 'DAL465' there"),
         ({"nominal_twin": {"actors/DAL456/initial/altitude_ft": "high"}}, "altitude_ft"),
         ({"nominal_twin": {"actors/DAL456/initial/altitude_ft": 59000}}, "in the twin"),
-        ({"nominal_twin": {}, "conflict": None}, "the scenario is nominal itself"),
     ],
 )
 def test_a_twin_that_cannot_be_is_told_of_when_the_scenario_is_read(

@@ -14,10 +14,9 @@ from airhilt.errors import AirhiltError
 from airhilt.metrics.estimates import Estimate
 from airhilt.sweep.evaluation.preset import Choice, Results, Row
 from airhilt.sweep.evaluation.presets import FAMILY
-from airhilt.sweep.evaluation.tables import Table, number, share
+from airhilt.sweep.evaluation.tables import Scatter, Table, number, share
 from judge_encounters import CREWS, Counts
 from results import record, sections
-from results.figures import Scatter
 from results.page import IMAGES, Page
 from results.record import Code
 from results.sections import SECTIONS, ClosedLoop, PresetSection, Wanted
@@ -32,8 +31,9 @@ RANKING = Table(
         ("one", "all", share(Estimate(0.5, 0.2, 0.8, 8)), number(Estimate(7.66, 7.0, 8.0, 8), 2)),
         ("one", "asr", share(Estimate(1.0, 0.7, 1.0, 8)), number(Estimate(9.0, None, None, 1))),
     ),
+    figure=Scatter(x="right", y="time, s"),
 )
-SECTION = PresetSection("paper", figures=(Scatter("lines", "ranking", x="right", y="time, s"),))
+SECTION = PresetSection("paper")
 
 
 def write_section(work: Path, name: str, tables: Sequence[Table], code: Code = COMMIT) -> None:
@@ -153,7 +153,10 @@ def test_the_texts_name_what_the_sections_have_and_the_page_is_always_the_same(
             write_section(work, section.name, preset_tables(section.name))
     ClosedLoop().make(Wanted(work, COMMIT, encounters=4))
     flight = {"type": "737", "number": "climb_fpm", "flown": 2600.0}
-    rows = [{**flight, "published": [2500.0, 3500.0]}, {**flight, "published": [-1e999, 1e999]}]
+    rows = [
+        {**flight, "published": [2500.0, 3500.0, "assumed"]},
+        {**flight, "published": [None, None, "published"]},
+    ]
     published = sections.published_table(rows).model_dump(mode="json")
     record.write_document(work / "procedures", {"tables": [published]})
     for name in ("closed_loop", "procedures"):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from airhilt.scenario.models.responses import CALL_S
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
@@ -26,10 +26,11 @@ from benchmarks.procedures import (
 
 
 class Range(NamedTuple):
-    """A published range; without one, a number is only shown."""
+    """A range that is published, or assumed; without one, a number is only shown."""
 
     at_least: float = -math.inf
     at_most: float = math.inf
+    basis: Literal["published", "assumed"] = "published"
 
     def __str__(self) -> str:
         """Return the range for the table."""
@@ -57,21 +58,21 @@ class Row(NamedTuple):
         """Return the line of the table."""
         verdict = "FAIL" if self.is_failed else "pass"
         return (
-            f"{self.type:6} {self.number:27} published {self.published!s:14} "
+            f"{self.type:6} {self.number:27} {self.published.basis:9} {self.published!s:14} "
             f"flown {self.flown:7.1f}  {verdict}"
         )
 
 
-JET_CLIMB_FPM = Range(2_500.0, 3_500.0)
+JET_CLIMB_FPM = Range(2_500.0, 3_500.0, "assumed")
 """Initial climb of a 737 of 50 t and of a 747-400 of 250 t in line operation with reduced thrust.
 It is assumed: the manuals have no rates for these weights."""
-JET_PITCH_DEG = Range(12.0, 18.0)
+JET_PITCH_DEG = Range(12.0, 18.0, "assumed")
 """About the 15 degrees that the flight directors of Boeings command first (737 flight crew training
 manual, takeoff); that 3 degrees are about is assumed."""
 JET_GO_AROUND_FPM = Range(1_000.0, 2_000.0)
 """Rate that the autothrottle holds after the first push of TO/GA (737 flight crew training manual,
 go-around and missed approach)."""
-C172P_CLIMB_FPM = Range(595.0, 805.0)
+C172P_CLIMB_FPM = Range(595.0, 805.0, "assumed")
 """700 ft/min at sea level and the greatest weight (Cessna 172P pilot's operating handbook, section
 1), and 15 % of it, which is assumed."""
 C310_CLIMB_FPM = Range(1_495.0, 1_660.0)
@@ -85,9 +86,9 @@ volume II, part I, section 4, chapter 6)."""
 HEIGHT_LOST_FT = {"A": 42.0, "B": 59.0, "C": 71.0, "D": 85.0}
 """Height loss of each category of aircraft, with a radio altimeter (ICAO Doc 8168, volume II,
 table III-3-6-3 of 2006)."""
-MEAN_RATE_PERCENT = Range(95.0, 105.0)
+MEAN_RATE_PERCENT = Range(95.0, 105.0, "assumed")
 """Mean rate of an en-route climb as a part of what was asked; assumed."""
-GREATEST_RATE_PERCENT = Range(at_most=115.0)
+GREATEST_RATE_PERCENT = Range(at_most=115.0, basis="assumed")
 """Greatest rate of an en-route climb as a part of what was asked; assumed."""
 
 

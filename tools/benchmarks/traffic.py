@@ -77,7 +77,13 @@ def fifty_scenario() -> Scenario:
     """Return fifty 737s on ten levels that all fly to one point."""
     document = load("s02a_headon").model_dump(mode="json")
     template = document["actors"][0]
-    document |= {"name": "fifty", "conflict": None, "end_when": [], "perturbations": []}
+    document |= {
+        "name": "fifty",
+        "conflict": None,
+        "end_when": [],
+        "perturbations": [],
+        "nominal_twin": None,
+    }
     document |= {"duration_s": 60.0, "radio": {}, "cameras": []}
     document["actors"] = [
         template
@@ -163,7 +169,13 @@ def terminal_scenario() -> Scenario:
     document["actors"][2]["commands"] = [
         {"action": "taxi", "to": {"type": "hold_short", "runway": "01", "taxiway": "A"}}
     ]
-    document |= {"name": "terminal", "duration_s": 150.0, "end_when": [], "perturbations": []}
+    document |= {
+        "name": "terminal",
+        "duration_s": 150.0,
+        "end_when": [],
+        "perturbations": [],
+        "nominal_twin": None,
+    }
     return Scenario.model_validate(document)
 
 

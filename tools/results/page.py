@@ -15,9 +15,9 @@ from pathlib import Path
 
 from airhilt.errors import AirhiltError
 from airhilt.host.files import make_folder, replace_file
+from airhilt.report.evaluation import scatter
 from airhilt.report.figures import Figures
 from airhilt.sweep.evaluation.tables import Cell, Quantity, Table
-from results.figures import Scatter
 from results.record import Code, Record, read
 from results.sections import Section
 
@@ -172,15 +172,12 @@ class Page:
 
     def _figure(self, section: str, name: str) -> str | None:
         record = self.records.get(section)
-        scatter = next((one for one in self._scatters(section) if one.name == name), None)
-        if record is None or scatter is None or scatter.table not in record.tables:
+        table = record.tables.get(name) if record else None
+        if table is None or table.figure is None:
             return None
         file = f"{section}_{name}"
-        scatter.draw(file, record.tables[scatter.table], self.figures)
-        return f"![{scatter.y} against {scatter.x}]({IMAGES}/{file}.svg)"
-
-    def _scatters(self, section: str) -> Sequence[Scatter]:
-        return next((each.figures for each in self.sections if each.name == section), ())
+        scatter.draw(self.figures, file, table.model_dump(mode="json"), on_panel=False)
+        return f"![{table.figure.y} against {table.figure.x}]({IMAGES}/{file}.svg)"
 
     def _number(self, placeholder: str) -> str | None:
         section, _, rest = placeholder.partition(".")

@@ -1,4 +1,4 @@
-"""The sections of the page, each with its runs and its figures.
+"""The sections of the page, each with its runs.
 
 A section is one entry of `SECTIONS` and one text of its name, such as ``paper.md``. A preset of
 `airhilt evaluate` is a `PresetSection`.
@@ -7,7 +7,6 @@ A section is one entry of `SECTIONS` and one text of its name, such as ``paper.m
 from __future__ import annotations
 
 import json
-import math
 import subprocess
 import sys
 import time
@@ -31,7 +30,6 @@ from airhilt.sweep.evaluation.presets import FAMILY
 from airhilt.sweep.evaluation.tables import NOTHING, Table, share
 from airhilt.sweep.work import Work
 from judge_encounters import CREWS, Counts, closed_loop_counts, closed_loop_rows
-from results.figures import Scatter
 from results.record import ROOT, Code, write_document
 
 ASSISTANT = "reference"
@@ -79,10 +77,6 @@ class Section(Protocol):
     def name(self) -> str:
         """Name of its text and of its folder."""
 
-    @property
-    def figures(self) -> Sequence[Scatter]:
-        """Figures of its tables."""
-
     def size(self, wanted: Wanted) -> Size:
         """Return what it takes; one run is tried."""
 
@@ -113,7 +107,6 @@ class PresetSection:
 
     name: str
     seeds: int | None = None
-    figures: Sequence[Scatter] = ()
 
     def size(self, wanted: Wanted) -> Size:
         """Return the sum over the sweeps, each by a run that is tried."""
@@ -143,7 +136,6 @@ class ClosedLoop:
     """Random encounters in which crews act (`tools/judge_encounters.py`)."""
 
     name: str = "closed_loop"
-    figures: Sequence[Scatter] = ()
 
     def size(self, wanted: Wanted) -> Size:
         """Return the number of encounters; one is flown."""
@@ -238,7 +230,6 @@ class Procedures:
     """Climbs and go-arounds beside what is published (`tools/bench.py procedures`)."""
 
     name: str = "procedures"
-    figures: Sequence[Scatter] = ()
 
     def size(self, wanted: Wanted) -> Size:  # noqa: ARG002
         """Return one run of the benchmark."""
@@ -264,28 +255,25 @@ def published_table(rows: Sequence[dict[str, Any]]) -> Table:
     return Table(
         name="published",
         title="Flown, beside what is published",
-        columns=("type", "number", "published", "flown"),
+        columns=("type", "number", "range", "basis", "flown"),
         rows=tuple(
-            (row["type"], row["number"], _range(*row["published"]), f"{row['flown']:.1f}")
+            (row["type"], row["number"], *_range(*row["published"]), f"{row['flown']:.1f}")
             for row in rows
         ),
     )
 
 
-def _range(at_least: float, at_most: float) -> str:
-    if math.isinf(at_least) and math.isinf(at_most):
-        return NOTHING
-    if math.isinf(at_least):
-        return f"up to {at_most:.4g}"
-    return f"{at_least:.4g} to {at_most:.4g}"
+def _range(at_least: float | None, at_most: float | None, basis: str) -> tuple[str, str]:
+    if at_least is None and at_most is None:
+        return NOTHING, NOTHING
+    ends = f"up to {at_most:.4g}" if at_least is None else f"{at_least:.4g} to {at_most:.4g}"
+    return ends, basis
 
 
 SECTIONS: tuple[Section, ...] = (
     PresetSection("paper"),
-    PresetSection(
-        "full",
-        figures=(Scatter("averted", "ranking", x="twins undisturbed", y="averted"),),
-    ),
+    PresetSection("full"),
+    PresetSection("roc"),
     PresetSection("recipients", seeds=20),
     ClosedLoop(),
     Procedures(),

@@ -11,6 +11,7 @@ import click
 from airhilt.cli.output import echo
 from airhilt.cli.parameters import json_option, run_argument
 
+SUMMARY = "summary.json"
 OF_THE_MACHINE = frozenset({"real_time_factor", "cpu_s", "too_slow", "latency_sources"})
 """Fields of a summary that say how it was computed, and are not scored again."""
 
@@ -27,8 +28,9 @@ Examples:
 def rescore(run_folder: Path, as_json: bool) -> None:
     """Make the scores of a run again from its folder alone, and compare them with summary.json.
 
-    The traffic is flown again; what assistants, recognisers, detectors and people said comes from
-    the record, so that nobody who took part is needed. --json prints the new summary.
+    The traffic is flown again, and cameras take their pictures again. What was said on the radio,
+    and by assistants, recognisers, detectors and people, comes from the record, so that nobody who
+    took part is needed. --json prints the new summary.
 
     Exit code 0: the scores are the same. 1: they differ, or there were none.
     """
@@ -47,17 +49,14 @@ def rescore(run_folder: Path, as_json: bool) -> None:
         {name: value for name, value in one.items() if name not in OF_THE_MACHINE}
         for one in (old or {}, new)
     )
-    is_same = verdict.identical and was == now_is
     if not as_json:
         if not verdict.identical:
-            echo(f"the traffic flies otherwise here: {verdict}")
-        elif old is None:
+            echo(f"the log differs from that of the run: {verdict}")
+        if old is None:
             echo("there was no summary.json; --json prints what belongs there")
-        elif not is_same:
-            echo(first_difference(was, now_is, "summary.json"))
         else:
-            echo("the same scores")
-    if not is_same:
+            echo("the same scores" if was == now_is else first_difference(was, now_is, SUMMARY))
+    if was != now_is:
         sys.exit(1)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -43,9 +44,13 @@ Examples:
 def validate(
     files: tuple[str, ...], seeds: int | None, as_json: bool, allowed: tuple[Path, ...]
 ) -> None:
-    """Check scenarios, and put all their actors where they begin."""
+    """Check scenarios, and put all their actors where they begin.
+
+    Exit code 1 if a dry flight brings no conflict about as the scenario declares it.
+    """
     scenarios = [_checked(file, allowed) for file in files]
     rows: list[dict[str, Any]] = []
+    is_uneventful = False
     for file, scenario in zip(files, scenarios, strict=True):
         row: dict[str, Any] = {"file": file, "scenario": scenario.name}
         if not as_json:
@@ -56,9 +61,12 @@ def validate(
             if not as_json:
                 echo(_line(flown))
             _tell_uneventful(flown)
+            is_uneventful |= bool(flown.uneventful)
         rows.append(row)
     if as_json:
         echo_json(json.dumps(rows, indent=2))
+    if is_uneventful:
+        sys.exit(1)
 
 
 def _checked(file: str, allowed: tuple[Path, ...]) -> Scenario:

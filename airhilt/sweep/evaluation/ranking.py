@@ -21,7 +21,7 @@ from airhilt.sweep.evaluation.assistants import CONTROLS, Assistant, shipped_sce
 from airhilt.sweep.evaluation.costs import COSTS, NOTE, costs
 from airhilt.sweep.evaluation.preset import Choice, Row
 from airhilt.sweep.evaluation.scores import Baselines
-from airhilt.sweep.evaluation.tables import Cell, Table, number, share
+from airhilt.sweep.evaluation.tables import Cell, Scatter, Table, number, share
 from airhilt.sweep.specification import Specification
 
 TWINS = "twins_"
@@ -105,7 +105,7 @@ def youden_index(tried: Tried, nobody: Sequence[Row]) -> Estimate:
         place = names.index(row["scenario"]), 0
         above[place] += was_lost[scores.pair_of(row)] - bool(row["lost"])
         below[place] += was_lost[scores.pair_of(row)]
-    for row in tried.twins:
+    for row in scores.known(tried.twins, "nuisance_alerts"):
         place = names.index(row["scenario"]), 1
         above[place] += is_undisturbed(row)
         below[place] += 1
@@ -132,10 +132,12 @@ def table(tried: Mapping[str, Tried], nobody: Sequence[Row]) -> Table:
             "Index: share of the conflicts averted, less those brought about, plus the share of "
             "nominal twins undisturbed, minus 1 (Youden). Averted: no harm to anybody, of the runs "
             "with harm without an assistant. Brought about: harm, of the others. Undisturbed: no "
-            "alert and no harm in the same traffic without its conflict. `silent` and `cry_wolf` "
+            "alert and no harm in the same traffic without its conflict, over which nuisance is "
+            "counted too. `silent` and `cry_wolf` "
             "are negative controls. Each is ranked over the scenarios that it is made for.",
             NOTE,
         ),
+        figure=Scatter(x="twins undisturbed", y="averted"),
     )
 
 
@@ -147,11 +149,12 @@ def _cells(tried: Tried, index: Estimate, baselines: Baselines) -> tuple[Cell, .
     known = [row for row in tried.conflicts if scores.pair_of(row) in baselines.nobody]
     lost = [row for row in known if baselines.nobody[scores.pair_of(row)]["lost"]]
     others = [row for row in known if not baselines.nobody[scores.pair_of(row)]["lost"]]
+    twins = scores.known(tried.twins, "nuisance_alerts")
     return (
         number(index, 2),
         share(scores.share_where(lost, lambda row: not row["lost"])),
         share(scores.share_where(others, lambda row: bool(row["lost"]))),
-        share(scores.share_where(tried.twins, is_undisturbed)),
+        share(scores.share_where(twins, is_undisturbed)),
         number(scores.mean(tried.conflicts, "time_to_first_warning_s"), 1),
         number(scores.nuisance_per_hour(tried.twins)),
         *costs(tried.conflicts, baselines),

@@ -26,22 +26,15 @@ class Quantity(BaseModel):
 Cell = Quantity | int | str
 
 
-class Point(BaseModel):
-    """A point of a curve, with the interval of either number."""
+class Scatter(BaseModel):
+    """The figure of a table: two of its columns against each other.
+
+    Rows that begin with the same cell, one after the other, are one series.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-    x: Quantity
-    y: Quantity
-    label: str
-
-
-class Curves(BaseModel):
-    """The figure of a table: a curve for each series, through its points in their order."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    x_label: str
-    y_label: str
-    series: dict[str, tuple[Point, ...]]
+    x: str
+    y: str
 
 
 class Table(BaseModel):
@@ -53,7 +46,7 @@ class Table(BaseModel):
     columns: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     notes: tuple[str, ...] = Field(default=(), description="sentences that belong to the table")
-    curves: Curves | None = Field(default=None, description="its figure, if it has one")
+    figure: Scatter | None = Field(default=None, description="its figure, if it has one")
 
     def markdown(self) -> str:
         """Return the table as Markdown, with its title in front and its notes after it."""

@@ -52,7 +52,7 @@ def test_key_pictures_are_shown_with_boxes_and_who_is_in_them(page: Page, report
     assert count(page, f"{first} .framed > svg:first-child rect.true") == 1
     assert count(page, f"{first} .zoom image") == 1
     listed = text(page, f"{first} .boxes")
-    assert "airplane 0.80, not confirmed: DAL456, 4,1" in listed
+    assert "airplane 0.80, not confirmed: DAL456, 4,0" in listed
     assert "m off" in listed
     assert "WARNING to " in text(page, ".picture:nth-child(2)")
     assert re.search(r"\d s before the closest approach", text(page, ".picture:nth-child(3)"))

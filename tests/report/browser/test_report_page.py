@@ -11,7 +11,6 @@ from typing import Any
 import pytest
 from pydantic import TypeAdapter
 
-from airhilt import load
 from airhilt.commands import Command
 from airhilt.cosim.simulation import run
 from airhilt.messages import Recommendation
@@ -22,6 +21,7 @@ from airhilt.scenario import Scenario
 from breadth import mostly_slow
 from devtools import Page
 from engine_package import installed
+from nominal import nominal
 from radio_folder import busy_radio
 
 pytestmark = pytest.mark.browser
@@ -42,7 +42,7 @@ def report(folder: Path) -> Path:
 def incursion(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The report of a landing on which a vehicle drives in the way, with nobody to warn."""
     out = tmp_path_factory.mktemp("incursion") / "run"
-    scenario = load("s01b_delayed_hold")
+    scenario = nominal("s01b_delayed_hold")
     run(scenario, Options(latency="fixed", assistant="none", out=out))
     return write_report(out)
 

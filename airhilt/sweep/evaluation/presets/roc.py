@@ -15,7 +15,7 @@ from airhilt.sweep.evaluation import ranking, scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, CONTROLS, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
 from airhilt.sweep.evaluation.ranking import Tried
-from airhilt.sweep.evaluation.tables import Cell, Curves, Point, Quantity, Table, number, share
+from airhilt.sweep.evaluation.tables import Cell, Quantity, Scatter, Table, number, share
 from airhilt.sweep.specification import Specification
 
 FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -68,19 +68,14 @@ def tables(results: Results) -> Sequence[Table]:
     """Return the points of the curves, and the ranking of the assistants as they ship."""
     tried, nobody = ranking.tried(results.rows), results.rows[NONE]
     rows: list[tuple[Cell, ...]] = []
-    curves: dict[str, tuple[Point, ...]] = {}
     for each in (*ASSISTANTS, *CONTROLS):
-        points = []
         for factor in FACTORS:
             own = tried.get(_labelled(each.name, factor))
             if own is None:
                 continue
             missed, nuisance = _point(own)
-            if None not in (missed.value, nuisance.value):
-                points.append(Point(x=nuisance, y=missed, label=f"x{factor:g}"))
             index = number(ranking.youden_index(own, nobody), 2)
             rows.append((each.name, f"{factor:g}", missed, nuisance, index))
-        curves[each.name] = tuple(points)
     characteristic = Table(
         name="roc",
         title="Missed against nuisance",
@@ -92,7 +87,7 @@ def tables(results: Results) -> Sequence[Table]:
             "assistant tells of it; one without any has one point. In brackets, and as bands: "
             "95 % interval.",
         ),
-        curves=Curves(x_label="Nuisance alerts, 1/h", y_label="Missed, share", series=curves),
+        figure=Scatter(x="nuisance, 1/h", y="missed"),
     )
     as_shipped = {each.name: tried[each.name] for each in (*ASSISTANTS, *CONTROLS)
                   if each.name in tried}  # fmt: skip
