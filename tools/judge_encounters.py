@@ -22,6 +22,8 @@ import json
 import math
 from collections import Counter
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 
 import numpy as np
 from rich.console import Console
@@ -49,6 +51,7 @@ MANNERS: tuple[tuple[Manner, Manner], ...] = (
     ("follows", "opposite"),
 )
 """Manners of the two crews, in closed loop."""
+CREWS = [Crews(model, manners) for model in RESPONSE_MODELS for manners in MANNERS]
 
 
 def main() -> None:
@@ -60,6 +63,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0, help="seed of the draws")
     parser.add_argument("--assistant", default="reference", help="decision engine")
     parser.add_argument("--closed-loop", action="store_true", help="crews act")
+    parser.add_argument(
+        "--jobs", type=int, help="processes, in closed loop; as many as CPUs unless given"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     given = parser.parse_args()
     if given.closed_loop:
@@ -79,24 +85,16 @@ def main() -> None:
 
 def print_closed_loop(given: argparse.Namespace) -> None:
     """Fly close encounters with crews that act, and print what they came to."""
-    every = [Crews(model, manners) for model in RESPONSE_MODELS for manners in MANNERS]
-    counts = {crews: Counter[str]() for crews in every}
-    for number in track(range(given.count), "flying", disable=given.json, transient=True):
-        encounter = draw_close(np.random.default_rng((given.seed, number)))
-        unassisted = closed_loop.fly_on(encounter)
-        for crews in every:
-            engine = ASSISTANTS.create(given.assistant)
-            flown = closed_loop.fly(encounter, engine, crews, given.seed + number)
-            counts[crews].update(
-                unassisted=int(unassisted.is_nmac),
-                unresolved=int(flown.is_nmac and unassisted.is_nmac),
-                induced=int(flown.is_nmac and not unassisted.is_nmac),
-                alerts=flown.alerts,
-                reversals=flown.reversals,
-            )
+    counts = {crews: Counter[str]() for crews in CREWS}
+    fly_one = partial(counts_of, given.assistant, given.seed)
+    with ProcessPoolExecutor(given.jobs) as pool:
+        flown = pool.map(fly_one, range(given.count))
+        for found in track(flown, "flying", given.count, disable=given.json, transient=True):
+            for crews, each in found.items():
+                counts[crews].update(each)
     rows = [
         {"crews": crews.model, "first": one, "second": other, **counts[crews]}
-        for crews in every
+        for crews in CREWS
         for one, other in (crews.manners,)
     ]
     if given.json:
@@ -106,6 +104,23 @@ def print_closed_loop(given: argparse.Namespace) -> None:
     for row in rows:
         table.add_row(*map(str, row.values()))
     Console().print(table)
+
+
+def counts_of(assistant: str, seed: int, number: int) -> dict[Crews, dict[str, int]]:
+    """Return what one close encounter came to, for each of `CREWS`."""
+    encounter = draw_close(np.random.default_rng((seed, number)))
+    unassisted = closed_loop.fly_on(encounter)
+    counts = {}
+    for crews in CREWS:
+        flown = closed_loop.fly(encounter, ASSISTANTS.create(assistant), crews, seed + number)
+        counts[crews] = {
+            "unassisted": int(unassisted.is_nmac),
+            "unresolved": int(flown.is_nmac and unassisted.is_nmac),
+            "induced": int(flown.is_nmac and not unassisted.is_nmac),
+            "alerts": flown.alerts,
+            "reversals": flown.reversals,
+        }
+    return counts
 
 
 def judged(outcomes: Sequence[Outcome]) -> dict[str, float | int | list[int] | None]:

@@ -10,8 +10,9 @@ that gives ALIM.
 Once ALIM is reached, an advisory to climb or descend is weakened to level off, if that keeps ALIM.
 
 The sense is reversed if the one in force, strengthened, does not avoid a near collision and the
-other one does (version 7.1, also against an aircraft that coordinates). FAA's text has no threshold
-for it: that of a near collision is an assumption.
+other one does (version 7.1, also against an aircraft that coordinates). So it is while the two
+remain within 100 ft because the own crew goes the wrong way. FAA's text has no threshold for the
+separation that fails: that of a near collision is an assumption.
 
 Left out: limits other than level flight, and limits of the aircraft's performance. A crew that has
 advisories against two threats stays with the sense that it was told first.
@@ -124,9 +125,13 @@ def reversal(
     """Return the advisory of the other sense; None if the present one is to stay.
 
     A crew that ``departs`` from its advisory is expected to fly on as it does, and an intruder that
-    ``coordinates`` to follow the reversal then.
+    ``coordinates`` to follow the reversal then. That counts while the two are at one altitude.
+    There is no reversal that nobody has the time to respond to.
     """
+    if time_s <= CHANGED_RESPONSE_S:
+        return None
     other = Resolution(opposite(present.sense), RATE_M_S)
+    departs = departs and abs(own.altitude_m - intruder.altitude_m) < NEAR_COLLISION_M
     kept_m = own.at(time_s) if departs else _changed_m(own, present, time_s)
     there_m = intruder.at(time_s)
     follows = departs and coordinates

@@ -226,14 +226,14 @@ class TcasUnit:
         """Return another advisory; None if the present one stays."""
         if not look.is_closing or look.level.resolution is None:
             return None
-        may_reverse = len(self._in_force()) == 1
+        is_alone, comes_first = len(self._in_force()) == 1, self._comes_first(look.track)
         required = self._required(look.track)
-        if may_reverse and required == opposite(present.sense):
+        if is_alone and not comes_first and required == opposite(present.sense):
             return Resolution(required, RATE_M_S if _may_fly(required, look) else 0.0)
         elapsed_s = (t_ns - encounter.changed_ns) / SECOND_NS
         if elapsed_s < RESPONSE_S:
             return None
-        if may_reverse and not encounter.is_reversed and self._comes_first(look.track):
+        if is_alone and comes_first and not encounter.is_reversed:
             departs = elapsed_s >= RESPONSE_S + SEEN_S and _departs(present, look.own)
             found = _reversal(present, look, departs=departs)
             if found is not None:
