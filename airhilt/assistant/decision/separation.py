@@ -24,7 +24,7 @@ from airhilt.assistant.decision.loss_prediction import (
     SeparationStandard,
     predict,
 )
-from airhilt.assistant.decision.resolution import CLOSE, margin_of, resolve
+from airhilt.assistant.decision.resolution import CLOSE, Senses, margin_of, resolve
 from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
@@ -182,7 +182,8 @@ class SeparationWatch:
         two come close by what they do.
         """
         tracks, before = (prediction.first, prediction.second), conflict.advice
-        told, departs, senses = None, (False, False), (None, None)
+        told, departs = None, (False, False)
+        senses: Senses = (None, None)
         ignoring = frozenset[str]()
         if before is not None:
             first, second = (
