@@ -20,7 +20,9 @@ from __future__ import annotations
 import argparse
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 
 import numpy as np
 from rich.console import Console
@@ -62,6 +64,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0, help="seed of the draws")
     parser.add_argument("--assistant", default="reference", help="decision engine")
     parser.add_argument("--closed-loop", action="store_true", help="crews act")
+    parser.add_argument(
+        "--jobs", type=int, help="processes, in closed loop; as many as CPUs unless given"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     given = parser.parse_args()
     if given.closed_loop:
@@ -81,10 +86,9 @@ def main() -> None:
 
 def print_closed_loop(given: argparse.Namespace) -> None:
     """Fly close encounters with crews that act, and print what they came to."""
-    numbers = track(range(given.count), "flying", disable=given.json, transient=True)
-    rows = closed_loop_rows(
-        [closed_loop_counts(number, given.seed, given.assistant) for number in numbers]
-    )
+    flown = closed_loop_flights(range(given.count), given.seed, given.assistant, given.jobs)
+    counts = list(track(flown, "flying", given.count, disable=given.json, transient=True))
+    rows = closed_loop_rows(counts)
     if given.json:
         print(json.dumps({"encounters": given.count, "rows": rows}, indent=2))
         return
@@ -92,6 +96,14 @@ def print_closed_loop(given: argparse.Namespace) -> None:
     for row in rows:
         table.add_row(*map(str, row.values()))
     Console().print(table)
+
+
+def closed_loop_flights(
+    numbers: Iterable[int], seed: int, assistant: str, jobs: int | None = None
+) -> Iterator[list[Counts]]:
+    """Yield what close encounters came to, in their order, flown by so many processes."""
+    with ProcessPoolExecutor(jobs) as pool:
+        yield from pool.map(partial(closed_loop_counts, seed=seed, assistant=assistant), numbers)
 
 
 def closed_loop_counts(number: int, seed: int, assistant: str) -> list[Counts]:

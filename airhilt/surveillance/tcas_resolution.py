@@ -9,9 +9,13 @@ that gives ALIM.
 
 Once ALIM is reached, an advisory to climb or descend is weakened to level off, if that keeps ALIM.
 
-Left out: reversals of sense, limits other than level flight, and limits of the aircraft's
-performance. A crew that is told to descend against a second threat from
-below stays with the sense that it was told first.
+The sense is reversed if the one in force, strengthened, does not avoid a near collision and the
+other one does (version 7.1, also against an aircraft that coordinates). So it is while the two
+remain within 100 ft because the own crew goes the wrong way. FAA's text has no threshold for the
+separation that fails: that of a near collision is an assumption.
+
+Left out: limits other than level flight, and limits of the aircraft's performance. A crew that has
+advisories against two threats stays with the sense that it was told first.
 """
 
 from __future__ import annotations
@@ -31,6 +35,12 @@ RESPONSE_S = 5.0
 """Time until a crew responds to a first advisory, in s (ICAO Annex 10, volume IV, 4.4.2)."""
 ACCELERATION_M_S2 = 0.25 * STANDARD_GRAVITY
 """Vertical acceleration of the response, in m/s^2 (as above)."""
+CHANGED_RESPONSE_S = 2.5
+"""Time until a crew responds to an increase or a reversal, in s (as above)."""
+CHANGED_ACCELERATION_M_S2 = 0.35 * STANDARD_GRAVITY
+"""Vertical acceleration of the response to an increase or a reversal, in m/s^2 (as above)."""
+NEAR_COLLISION_M = 100 * FOOT
+"""Separation below which an advisory has failed, in m: that of a near mid-air collision."""
 NO_DESCENT_BELOW_M = 1100 * FOOT
 """Height above the ground below which there is no advisory to descend, in m."""
 NO_INCREASED_DESCENT_BELOW_M = 1550 * FOOT
@@ -103,6 +113,41 @@ def may_weaken(
     return has_room and separation_m(own, intruder, level, time_s, RESPONSE_S) >= alim_m
 
 
+def reversal(
+    own: Vertical,
+    intruder: Vertical,
+    present: Resolution,
+    time_s: float,
+    *,
+    departs: bool,
+    coordinates: bool,
+) -> Resolution | None:
+    """Return the advisory of the other sense; None if the present one is to stay.
+
+    A crew that ``departs`` from its advisory is expected to fly on as it does, and an intruder that
+    ``coordinates`` to follow the reversal then. That counts while the two are at one altitude.
+    There is no reversal that nobody has the time to respond to.
+    """
+    if time_s <= CHANGED_RESPONSE_S:
+        return None
+    other = Resolution(opposite(present.sense), RATE_M_S)
+    departs = departs and abs(own.altitude_m - intruder.altitude_m) < NEAR_COLLISION_M
+    kept_m = own.at(time_s) if departs else _changed_m(own, present, time_s)
+    there_m = intruder.at(time_s)
+    follows = departs and coordinates
+    expected_m = (
+        _changed_m(intruder, Resolution(present.sense, RATE_M_S), time_s) if follows else there_m
+    )
+    up = 1.0 if present.sense == "climb" else -1.0
+    fails = up * (kept_m - there_m) < NEAR_COLLISION_M
+    works = up * (expected_m - _changed_m(own, other, time_s)) >= NEAR_COLLISION_M
+    return other if fails and works else None
+
+
+def _changed_m(own: Vertical, resolution: Resolution, time_s: float) -> float:
+    return _modelled_m(own, resolution, time_s, CHANGED_RESPONSE_S, CHANGED_ACCELERATION_M_S2)
+
+
 def separation_m(
     own: Vertical, intruder: Vertical, resolution: Resolution, time_s: float, response_s: float
 ) -> float:
@@ -121,7 +166,13 @@ def _best_sense(own: Vertical, intruder: Vertical, time_s: float, alim_m: float)
     return not_crossing if separations[not_crossing] >= alim_m else best
 
 
-def _modelled_m(own: Vertical, resolution: Resolution, time_s: float, response_s: float) -> float:
+def _modelled_m(
+    own: Vertical,
+    resolution: Resolution,
+    time_s: float,
+    response_s: float,
+    acceleration_m_s2: float = ACCELERATION_M_S2,
+) -> float:
     """Return the own altitude after a time, if the crew responds as the standard pilot does."""
     up = 1.0 if resolution.sense == "climb" else -1.0
     rate_m_s = up * max(up * own.rate_m_s, resolution.rate_m_s)
@@ -129,8 +180,8 @@ def _modelled_m(own: Vertical, resolution: Resolution, time_s: float, response_s
         rate_m_s = 0.0
     left_s = max(time_s - response_s, 0.0)
     change_m_s = rate_m_s - own.rate_m_s
-    changing_s = min(abs(change_m_s) / ACCELERATION_M_S2, left_s)
-    acceleration = math.copysign(ACCELERATION_M_S2, change_m_s)
+    changing_s = min(abs(change_m_s) / acceleration_m_s2, left_s)
+    acceleration = math.copysign(acceleration_m_s2, change_m_s)
     return (
         own.at(time_s - left_s + changing_s)
         + 0.5 * acceleration * changing_s**2

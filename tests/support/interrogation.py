@@ -45,6 +45,8 @@ class Jet:
     silent_s: tuple[float, float] = (math.inf, math.inf)
     """From when to when it does not reply."""
     target_ft: float | None = None
+    ordered: tuple[float, float, float] | None = None
+    """Time at which it begins what a controller orders, the level in ft, and the rate in ft/min."""
     phase_ns: int = 0
     """Time in each second at which it interrogates."""
 
@@ -87,6 +89,10 @@ class Meeting:
 
     def fly(self) -> Meeting:
         draws = np.random.default_rng(self.seed)
+        for jet in self.jets:
+            if jet.ordered is not None:
+                begins_s, level_ft, rate_fpm = jet.ordered
+                self._orders.append((begins_s, partial(jet.climb, level_ft, rate_fpm)))
         for step in range(round((self.end_s - self.begin_s) * SECOND_NS / STEP_NS)):
             t_ns = step * STEP_NS
             time_s = self.begin_s + t_ns / SECOND_NS

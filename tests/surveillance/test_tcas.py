@@ -22,6 +22,8 @@ from airhilt.surveillance.tcas_resolution import (
     Vertical,
     is_insufficient,
     may_weaken,
+    opposite,
+    reversal,
     select,
     separation_m,
 )
@@ -289,6 +291,28 @@ def test_an_advisory_is_weakened_once_alim_is_reached_and_kept(
     assert level_off is weakens
     nearing = Vertical(HIGH, up * 20.0)  # It comes up to the own level before the two meet.
     assert not may_weaken(own, nearing, sense, 15.0, 600 * FOOT)
+
+
+RATES_M_S = st.floats(-15.0, 15.0)
+
+
+@given(RATES_M_S, RATES_M_S, st.floats(-300.0, 300.0), st.floats(0.0, 30.0), st.booleans(),
+       st.booleans())  # fmt: skip
+def test_a_sense_is_reversed_only_where_it_fails_and_upside_down_likewise(
+    own_m_s: float, intruder_m_s: float, gap_m: float, time_s: float, departs: bool, joins: bool
+) -> None:
+    def reversed_(up: float) -> Resolution | None:
+        present = Resolution("climb" if up > 0.0 else "descend", INCREASED_RATE_M_S)
+        own, intruder = Vertical(up * gap_m, up * own_m_s), Vertical(0.0, up * intruder_m_s)
+        return reversal(own, intruder, present, time_s, departs=departs, coordinates=joins)
+
+    upright, inverted = reversed_(1.0), reversed_(-1.0)
+    assert (upright is None) == (inverted is None)
+    if upright is not None and inverted is not None:
+        assert upright == Resolution("descend", RATE_M_S)
+        assert inverted.sense == opposite(upright.sense)
+        flies_on_m = gap_m + (own_m_s - intruder_m_s) * time_s
+        assert flies_on_m < 100 * FOOT
 
 
 @settings(max_examples=40, deadline=None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -64,6 +64,10 @@ def flown(number: int, *_: object) -> list[Counts]:
     close = number % 2
     counts = {"unassisted": close, "unresolved": close, "induced": 0, "alerts": 2, "reversals": 0}
     return [counts for _ in CREWS]
+
+
+def flown_all(numbers: Iterable[int], *_: object) -> Iterator[list[Counts]]:
+    return map(flown, numbers)
 
 
 # --- the page ------------------------------------------------------------------------------------
@@ -147,6 +151,7 @@ def test_the_texts_name_what_the_sections_have_and_the_page_is_always_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sections, "closed_loop_counts", flown)
+    monkeypatch.setattr(sections, "closed_loop_flights", flown_all)
     work, pages = tmp_path / "work", [tmp_path / "one" / "a.md", tmp_path / "two" / "a.md"]
     for section in SECTIONS:
         if isinstance(section, PresetSection):
@@ -165,12 +170,14 @@ def test_the_texts_name_what_the_sections_have_and_the_page_is_always_the_same(
         Page.of(SECTIONS, work, shows_dirty=False).write(page)
     text = pages[0].read_text()
     assert "Missing" not in text
-    assert "| 737  | climb_fpm | 2500 to 3500 | 2600.0 |" in text
+    assert "| 737  | climb_fpm | 2500 to 3500 | assumed | 2600.0 |" in text
     assert "2 of 2 (34 to 100 %)" in text
     assert pages[1].read_text() == text
-    (picture,) = (tmp_path / "one" / IMAGES).iterdir()
-    assert f"({IMAGES}/{picture.name})" in text
-    assert (tmp_path / "two" / IMAGES / picture.name).read_bytes() == picture.read_bytes()
+    pictures = sorted((tmp_path / "one" / IMAGES).glob("*.svg"))
+    assert [picture.stem for picture in pictures] == ["full_ranking", "roc_roc"]
+    for picture in pictures:
+        assert f"({IMAGES}/{picture.name})" in text
+        assert (tmp_path / "two" / IMAGES / picture.name).read_bytes() == picture.read_bytes()
 
 
 # --- the runs ------------------------------------------------------------------------------------
@@ -199,20 +206,22 @@ def test_encounters_go_on_where_they_were_stopped_unless_the_code_has_changed(
 ) -> None:
     numbers: list[int] = []
 
-    def until_third(number: int, *_: object) -> list[Counts]:
-        if len(numbers) == 2:
-            raise KeyboardInterrupt
-        return counted(number)
+    def until_third(left: Iterable[int], *_: object) -> Iterator[list[Counts]]:
+        for number in left:
+            if len(numbers) == 2:
+                raise KeyboardInterrupt
+            yield from counted([number])
 
-    def counted(number: int, *_: object) -> list[Counts]:
-        numbers.append(number)
-        return flown(number)
+    def counted(left: Iterable[int], *_: object) -> Iterator[list[Counts]]:
+        for number in left:
+            numbers.append(number)
+            yield flown(number)
 
     wanted = Wanted(tmp_path, COMMIT, encounters=4)
-    monkeypatch.setattr(sections, "closed_loop_counts", until_third)
+    monkeypatch.setattr(sections, "closed_loop_flights", until_third)
     with pytest.raises(KeyboardInterrupt):
         ClosedLoop().make(wanted)
-    monkeypatch.setattr(sections, "closed_loop_counts", counted)
+    monkeypatch.setattr(sections, "closed_loop_flights", counted)
     assert ClosedLoop().make(wanted)
     assert numbers == [0, 1, 2, 3]
     ClosedLoop().make(Wanted(tmp_path, OTHER, encounters=2))

@@ -13,13 +13,24 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import DecisionEngine, ReceivedMessage
 from airhilt.assistant.decision.manoeuvres import turn_rate_rad_s
 from airhilt.geodesy.wgs84 import offset_m
-from airhilt.messages import Climb, MaintainLevel, Recommendation, Turn
+from airhilt.messages import (
+    AdsbReport,
+    Climb,
+    CockpitInstruments,
+    MaintainLevel,
+    Message,
+    Recommendation,
+    TcasReply,
+    Turn,
+)
 from airhilt.scenario.models import Reactions
-from airhilt.scenario.models.responses import RESPONSE_MODELS, ResponseModelName
+from airhilt.scenario.models.responses import RESPONSE_MODELS, Channel, ResponseModelName
+from airhilt.sensors.tcas import RANGE_JITTER_M
 from airhilt.surveillance.receivers import Receiver
+from airhilt.surveillance.squitters import ALTITUDE_STEP_FT, quantise
 from airhilt.surveillance.tcas_resolution import ACCELERATION_M_S2
 from airhilt.surveillance.transponders import Transponder
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.truth.conflicts import NMAC
 from pairs.flying import FRAME, NACP, NACV, State
@@ -28,8 +39,11 @@ from pairs.geometry import Encounter, Path
 STEP_S = 0.1
 REPORT_STEPS = 5
 """Steps from one report to the next: two a second (RTCA DO-260B)."""
+REPLY_STEPS = 10
+"""Steps from one interrogation by TCAS to the next: one a second."""
 SPOKEN_S = 3.0
-"""Time from an alert to the end of the words of its instruction, in s: that of the voice."""
+"""Time from an alert to the end of the words of its instruction, in s: that of the voice.
+The model of ICAO counts from where a resolution advisory is displayed."""
 
 Manner = Literal["follows", "ignores", "opposite"]
 """Manner of a crew: it does as the assistant says, nothing, or what a controller orders against
@@ -114,6 +128,19 @@ class _Aircraft:
                 self.level = altitude_ft * FOOT, rate
             case Turn(degrees=degrees):
                 self.turns_to_rad = self.course_rad + degrees * DEGREE
+
+    def instruments(self, t_ns: int) -> CockpitInstruments:
+        """Return what its instruments show, as far as it is known of a point."""
+        track_deg = self.course_rad / DEGREE % 360.0
+        speed_kt = self.path.speed_m_s / KNOT
+        return CockpitInstruments(
+            t_ns=t_ns, callsign=self.callsign, airspeed_kt=speed_kt, mach=0.7,
+            altitude_ft=round(self.altitude_m / FOOT),
+            vertical_speed_fpm=round(self.rate_m_s / FOOT_PER_MINUTE),
+            north="true", heading_deg=track_deg, track_deg=track_deg, ground_speed_kt=speed_kt,
+            pitch_deg=0.0, roll_deg=0.0, gear=0.0, flaps=0.0, on_ground=False, mode="en_route",
+            selected_altitude_ft=round(self.altitude_m / FOOT), selected_airspeed_kt=280,
+        )  # fmt: skip
 
     def state(self) -> State:
         """Return its state as its transponder takes it."""
@@ -201,6 +228,8 @@ class _Loop:
             )
             for number, each in enumerate(pair, start=1)
         ]
+        self._ranges = np.random.default_rng((seed, 0))
+        self._has_tcas = TcasReply in engine.reads
         self._sense: dict[str, str] = {}
         self._following: set[tuple[str, str]] = set()
         self.alerts = 0
@@ -210,15 +239,44 @@ class _Loop:
         if number % REPORT_STEPS:
             return
         t_ns = round(time_s * SECOND_NS)
+        if AdsbReport in self._engine.reads:
+            self._report(t_ns, identifies=number <= 2 * REPORT_STEPS)
+        if self._has_tcas and number % REPLY_STEPS == 0:
+            self._interrogate(t_ns)
+        self._take(self._engine.decide(t_ns).alerts, time_s)
+
+    def _report(self, t_ns: int, *, identifies: bool) -> None:
         for aircraft, sender in zip(self._pair, self._senders, strict=True):
             state = aircraft.state()
-            if number <= 2 * REPORT_STEPS:
+            if identifies:
                 self._receiver.decode(sender, sender.identification(), t_ns)
             self._receiver.decode(sender, sender.velocity(state), t_ns)
             decoded = self._receiver.decode(sender, sender.position(state, t_ns), t_ns)
             if decoded is not None:
-                self._engine.receive(ReceivedMessage(decoded.report(t_ns), t_ns, t_ns))
-        self._take(self._engine.decide(t_ns).alerts, time_s)
+                self._receive(decoded.report(t_ns), t_ns)
+
+    def _interrogate(self, t_ns: int) -> None:
+        """Let both aircraft interrogate each other by TCAS, as by `airhilt.sensors.tcas`."""
+        addresses = [sender.icao24 for sender in self._senders]
+        for index, own in enumerate(self._pair):
+            other = self._pair[1 - index]
+            apart_m = math.hypot(
+                own.east_m - other.east_m,
+                own.north_m - other.north_m,
+                own.altitude_m - other.altitude_m,
+            )
+            error_m = RANGE_JITTER_M * self._ranges.standard_normal()
+            self._receive(own.instruments(t_ns), t_ns)
+            reply = TcasReply(
+                t_ns=t_ns, callsign=own.callsign, own_icao24=addresses[index], mode="S",
+                icao24=addresses[1 - index], range_m=max(apart_m + error_m, 0.0), bearing_deg=0.0,
+                altitude_ft=round(quantise(other.altitude_m / FOOT, ALTITUDE_STEP_FT)),
+                has_tcas=True,
+            )  # fmt: skip
+            self._receive(reply, t_ns)
+
+    def _receive(self, message: Message, t_ns: int) -> None:
+        self._engine.receive(ReceivedMessage(message, t_ns, t_ns))
 
     def _take(self, alerts: Sequence[Alert], time_s: float) -> None:
         for alert in alerts:
@@ -238,8 +296,9 @@ class _Loop:
         if manner == "ignores":
             return
         is_opposite = manner == "opposite" and isinstance(told, Climb)
+        told_by: Channel = "ra" if self._has_tcas else "assistant"
         response = model.respond(
-            "controller" if is_opposite else "assistant",
+            "controller" if is_opposite else told_by,
             alert.id,
             revision=alert.revision,
             is_repeated=(callsign, alert.id) in self._following,
@@ -251,6 +310,6 @@ class _Loop:
         if isinstance(told, Climb):
             flown = replace(response, kind="opposite") if is_opposite else response
             told = flown.flown(told, aircraft.altitude_m / FOOT)
-        due_s = time_s + SPOKEN_S + response.delay_s
+        due_s = time_s + response.delay_s + (0.0 if told_by == "ra" else SPOKEN_S)
         earlier_s = -math.inf if aircraft.pending is None else aircraft.pending[0]
         aircraft.pending = max(due_s, earlier_s), told

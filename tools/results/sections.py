@@ -29,7 +29,13 @@ from airhilt.sweep.evaluation.preset import Choice, Preset
 from airhilt.sweep.evaluation.presets import FAMILY
 from airhilt.sweep.evaluation.tables import NOTHING, Table, share
 from airhilt.sweep.work import Work
-from judge_encounters import CREWS, Counts, closed_loop_counts, closed_loop_rows
+from judge_encounters import (
+    CREWS,
+    Counts,
+    closed_loop_counts,
+    closed_loop_flights,
+    closed_loop_rows,
+)
 from results.record import ROOT, Code, write_document
 
 ASSISTANT = "reference"
@@ -153,8 +159,10 @@ class ClosedLoop:
         with self._path(wanted).open("w", encoding="utf-8") as stream:
             for line in (self._heading(wanted), *flown):
                 stream.write(f"{json.dumps(line)}\n")
-            for number in track(left, "encounters", console=Console(stderr=True)):
-                flown.append(closed_loop_counts(number, ENCOUNTERS_SEED, ASSISTANT))
+            made = closed_loop_flights(left, ENCOUNTERS_SEED, ASSISTANT, wanted.workers)
+            console = Console(stderr=True)
+            for counts in track(made, "encounters", len(left), console=console):
+                flown.append(counts)
                 stream.write(f"{json.dumps(flown[-1])}\n")
                 stream.flush()
         encounters = flown[: wanted.encounters]

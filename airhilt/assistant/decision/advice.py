@@ -13,7 +13,8 @@ from airhilt.assistant.decision.manoeuvres import (
     turn_rate_rad_s,
 )
 from airhilt.assistant.decision.tracks import LEVEL_BELOW_M_S, LEVEL_WITHIN_M, Track
-from airhilt.messages import Recommendation
+from airhilt.messages import Climb, Recommendation
+from airhilt.surveillance.tcas_resolution import Sense
 from airhilt.units import DEGREE, SECOND_NS
 
 SEEN_S = 4.0
@@ -36,6 +37,8 @@ class Advice(NamedTuple):
     vertical_rate_m_s: float
     is_changed: bool
     """True if it replaces other advice, so that the response takes less time."""
+    sense: Sense | None
+    """Sense of the last climb or descent that the crew was told; None before the first."""
 
     @classmethod
     def of(
@@ -49,6 +52,7 @@ class Advice(NamedTuple):
         if before is not None and before.recommendation == recommendation:
             return before
         is_changed = before is not None and before.recommendation is not None
+        sense = None if before is None else before.sense
         return cls(
             recommendation,
             manoeuvre,
@@ -56,6 +60,7 @@ class Advice(NamedTuple):
             _course_rad(track),
             track.vertical_rate_m_s,
             is_changed,
+            recommendation.sense if isinstance(recommendation, Climb) else sense,
         )
 
     @property

@@ -24,6 +24,7 @@ from airhilt.assistant.decision.manoeuvres import (
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima, Relative, relative
 from airhilt.messages import Climb, MaintainLevel, Recommendation, Turn
+from airhilt.surveillance.tcas_resolution import Sense
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE
 
 VERTICAL_RATE_FPM = 1500.0
@@ -49,6 +50,8 @@ LAST_RESORT = 0.99
 """Greatest margin of a candidate that keeps the two apart and is dangerous for another reason."""
 GAIN = 0.1
 """Separation, in units of the minima, that other advice must gain to replace what was told."""
+Senses = tuple[Sense | None, Sense | None]
+"""Sense of each of two aircraft; None if any will do."""
 Candidate = tuple[Manoeuvre, Manoeuvre]
 """Manoeuvres of the upper aircraft and of the lower one."""
 
@@ -74,6 +77,7 @@ def resolve(
     strong: bool,
     told: Candidate | None = None,
     departs: tuple[bool, bool] = (False, False),
+    senses: Senses = (None, None),
 ) -> Resolution:
     """Return the first candidate that keeps separation, or the one that keeps most of it.
 
@@ -83,7 +87,8 @@ def resolve(
 
     What they were ``told`` before stays unless something else keeps markedly more separation. Of
     those who depart from it (``departs``), nothing is expected: the other one's manoeuvre alone
-    must do, and theirs as well, should they follow after all.
+    must do, and theirs as well, should they follow after all. Nobody who has one of the ``senses``
+    is told to climb or descend in the other one.
 
     An aircraft in distress is told nothing: the other one gives way.
 
@@ -95,9 +100,10 @@ def resolve(
         first_is_upper = first.icao24 > second.icao24
     upper, lower = (first, second) if first_is_upper else (second, first)
     up_departs, down_departs = departs if first_is_upper else departs[::-1]
+    up_sense, down_sense = senses if first_is_upper else senses[::-1]
     encounter = _Encounter(
-        _Side(upper, up_departs),
-        _Side(lower, down_departs),
+        _Side(upper, up_departs, up_sense),
+        _Side(lower, down_departs, down_sense),
         others,
         infringed,
         RESPONSE_S if told is None else CHANGED_RESPONSE_S,
@@ -110,7 +116,7 @@ def resolve(
         fair = [
             (up, down)
             for up, down in candidates
-            if not (upper.in_distress and up != NONE) and not (lower.in_distress and down != NONE)
+            if encounter.up.may_fly(up) and encounter.down.may_fly(down)
         ]
         if best.margin >= 1.0:
             break
@@ -214,6 +220,16 @@ class _Side(NamedTuple):
     track: Track
     departs: bool
     """True if it does not do what it was told before."""
+    sense: Sense | None
+    """Sense that it may not leave; None if it may climb and descend."""
+
+    def may_fly(self, manoeuvre: Manoeuvre) -> bool:
+        """Return whether it may be told a manoeuvre; in distress none."""
+        if manoeuvre == NONE:
+            return True
+        told = _recommendation(self.track, manoeuvre)
+        reverses = isinstance(told, Climb) and self.sense not in (None, told.sense)
+        return not self.track.in_distress and not reverses
 
 
 class _Encounter:
@@ -222,7 +238,7 @@ class _Encounter:
     def __init__(
         self, up: _Side, down: _Side, others: Sequence[Track], minima: Minima, response_s: float
     ) -> None:
-        self._up, self._down = up, down
+        self.up, self.down = up, down
         self._minima, self._response_s = minima, response_s
         self._traffic = straight_paths(
             [_over_ground(up.track, each) for each in others], [each.profile() for each in others]
@@ -236,14 +252,14 @@ class _Encounter:
         ups, downs = (
             self._paths(side, manoeuvres)
             for side, manoeuvres in zip(
-                (self._up, self._down), zip(*candidates, strict=True), strict=True
+                (self.up, self.down), zip(*candidates, strict=True), strict=True
             )
         )
         margins = separations(ups, downs, self._minima)
         up_stays, down_stays = self._stays
-        if self._up.departs:
+        if self.up.departs:
             margins = np.minimum(margins, separations(up_stays, downs, self._minima))
-        if self._down.departs:
+        if self.down.departs:
             margins = np.minimum(margins, separations(ups, down_stays, self._minima))
         for row, (up, down) in enumerate(candidates):
             margin = float(margins[row])
@@ -259,7 +275,7 @@ class _Encounter:
         return best
 
     def _paths(self, side: _Side, manoeuvres: Sequence[Manoeuvre]) -> Paths:
-        motion = _over_ground(self._up.track, side.track)
+        motion = _over_ground(self.up.track, side.track)
         return paths(motion, side.track.profile(), manoeuvres, self._response_s)
 
     def _threatens(self, manoeuvre: Manoeuvre, flown: Paths) -> bool:
@@ -271,9 +287,9 @@ class _Encounter:
         """Return whether two come close who would not, if one flies on or does the opposite."""
         if self._is_close:
             return False
-        upper, lower = self._up.track, self._down.track
-        ups = self._paths(self._up, [up, up, NONE, mirrored(up, upper.altitude_m)])
-        downs = self._paths(self._down, [NONE, mirrored(down, lower.altitude_m), down, down])
+        upper, lower = self.up.track, self.down.track
+        ups = self._paths(self.up, [up, up, NONE, mirrored(up, upper.altitude_m)])
+        downs = self._paths(self.down, [NONE, mirrored(down, lower.altitude_m), down, down])
         return _is_within(CLOSE, ups, downs)
 
 

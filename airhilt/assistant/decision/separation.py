@@ -24,7 +24,7 @@ from airhilt.assistant.decision.loss_prediction import (
     SeparationStandard,
     predict,
 )
-from airhilt.assistant.decision.resolution import margin_of, resolve
+from airhilt.assistant.decision.resolution import CLOSE, Senses, margin_of, resolve
 from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
@@ -178,10 +178,12 @@ class SeparationWatch:
 
         It is kept while what both crews do of it keeps separation, and while they have time to
         respond. It is replaced by what keeps markedly more, and where the severity has risen by the
-        best (``anew``).
+        best (``anew``). Nobody is told to climb after a descent, or the other way round, unless the
+        two come close by what they do.
         """
         tracks, before = (prediction.first, prediction.second), conflict.advice
         told, departs = None, (False, False)
+        senses: Senses = (None, None)
         ignoring = frozenset[str]()
         if before is not None:
             first, second = (
@@ -195,6 +197,8 @@ class SeparationWatch:
             if is_fresh or margin_of(first, second, self.config.infringed) >= 1.0:
                 return ignoring
             told, departs = (before[0].left(tracks[0]), before[1].left(tracks[1])), (one, other)
+            if margin_of(first, second, CLOSE) >= 1.0:
+                senses = before[0].sense, before[1].sense
         resolution = resolve(
             *tracks,
             [track.at(t_ns) for track in self._tracks if track.icao24 not in conflict.pair],
@@ -203,6 +207,7 @@ class SeparationWatch:
             strong=told is not None and conflict.escalation.severity is Severity.WARNING,
             told=None if anew else told,
             departs=departs,
+            senses=senses,
         )
         if resolution.manoeuvres != told:
             one_before, other_before = before or (None, None)

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from airhilt.assistant.decision.advice import SEEN_S
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.findings import Announcement
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack, IntruderTracks
@@ -38,6 +39,7 @@ from airhilt.surveillance.tcas_resolution import (
     is_insufficient,
     may_weaken,
     opposite,
+    reversal,
     select,
 )
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
@@ -60,7 +62,8 @@ Senses = dict[tuple[str, str], Sense]
 """Sense that the aircraft with the first address has told the second one by Mode S.
 
 Who chooses first is followed. Of two that choose in one cycle the lower address comes first, as in
-TCAS II, where the higher one gives way."""
+TCAS II, where the higher one gives way. The lower address alone reverses its sense, once in an
+encounter, and the other one follows."""
 
 
 @dataclass(slots=True)
@@ -73,6 +76,7 @@ class _Encounter:
     resolution: Resolution | None = None
     changed_ns: int = 0
     """Time of the last change of the resolution advisory."""
+    is_reversed: bool = False
     calm_since_ns: int | None = None
     is_over: bool = False
 
@@ -195,35 +199,66 @@ class TcasUnit:
         if encounter.resolution is None:
             changed = self._first_resolution(look) if said == "tcas_ra" else None
         else:
-            has_responded = t_ns - encounter.changed_ns >= RESPONSE_S * SECOND_NS
-            changed = _changed(encounter.resolution, look) if has_responded else None
+            changed = self._changed(encounter, encounter.resolution, look, t_ns)
         if changed is not None:
-            encounter.severity = Severity.WARNING
-            encounter.resolution, encounter.changed_ns = changed, t_ns
-            yield self._alert(look, encounter, _aural(changed, look.own))
+            before, encounter.resolution = encounter.resolution, changed
+            encounter.severity, encounter.changed_ns = Severity.WARNING, t_ns
+            encounter.is_reversed |= before is not None and before.sense != changed.sense
+            self._tell_sense(look.track, changed.sense)
+            yield self._alert(look, encounter, _aural(before, changed, look.own))
         elif _is_over(encounter, look, said, t_ns):
             yield from self._end(look.track)
 
     def _first_resolution(self, look: _Look) -> Resolution:
-        in_force = [
-            other.resolution.sense
-            for other in self._encounters.values()
-            if other.resolution is not None and not other.is_over
-        ]
-        icao24 = look.track.icao24
-        told = None if icao24 is None else self._senses.get((icao24, self.icao24))
-        required = None if told is None else opposite(told)
-        resolution = select(
+        in_force = self._in_force()
+        return select(
             look.own,
             look.intruder,
             look.time_s,
             look.level.alim_m,
-            required=in_force[0] if in_force else required,
-            may_descend=look.height_m > NO_DESCENT_BELOW_M,
+            required=in_force[0].sense if in_force else self._required(look.track),
+            may_descend=_may_fly("descend", look),
         )
-        if look.track.has_tcas and icao24 is not None:
-            self._senses[self.icao24, icao24] = resolution.sense
-        return resolution
+
+    def _changed(
+        self, encounter: _Encounter, present: Resolution, look: _Look, t_ns: int
+    ) -> Resolution | None:
+        """Return another advisory; None if the present one stays."""
+        if not look.is_closing or look.level.resolution is None:
+            return None
+        is_alone, comes_first = len(self._in_force()) == 1, self._comes_first(look.track)
+        required = self._required(look.track)
+        if is_alone and not comes_first and required == opposite(present.sense):
+            return Resolution(required, RATE_M_S if _may_fly(required, look) else 0.0)
+        elapsed_s = (t_ns - encounter.changed_ns) / SECOND_NS
+        if elapsed_s < RESPONSE_S:
+            return None
+        if is_alone and comes_first and not encounter.is_reversed:
+            departs = elapsed_s >= RESPONSE_S + SEEN_S and _departs(present, look.own)
+            found = _reversal(present, look, departs=departs)
+            if found is not None:
+                return found
+        return _adjusted(present, look)
+
+    def _in_force(self) -> list[Resolution]:
+        return [
+            each.resolution
+            for each in self._encounters.values()
+            if each.resolution is not None and not each.is_over
+        ]
+
+    def _required(self, track: IntruderTrack) -> Sense | None:
+        """Return the sense that the intruder's leaves; None if it has told none."""
+        told = None if track.icao24 is None else self._senses.get((track.icao24, self.icao24))
+        return None if told is None else opposite(told)
+
+    def _comes_first(self, track: IntruderTrack) -> bool:
+        """Return whether the own sense goes before that of an intruder."""
+        return not track.has_tcas or track.icao24 is None or self.icao24 < track.icao24
+
+    def _tell_sense(self, track: IntruderTrack, sense: Sense) -> None:
+        if track.has_tcas and track.icao24 is not None:
+            self._senses[self.icao24, track.icao24] = sense
 
     def _end(self, track: IntruderTrack) -> Iterator[Alert]:
         encounter = self._encounters.get(track)
@@ -280,20 +315,48 @@ def _own_state(instruments: CockpitInstruments, t_ns: int) -> tuple[Vertical, fl
     return Vertical(altitude_m, rate_m_s), height_m
 
 
-def _changed(present: Resolution, look: _Look) -> Resolution | None:
-    """Return a stronger or a weaker advisory of the same sense; None if the present one stays."""
-    if not look.is_closing:
-        return None
+def _may_fly(sense: Sense, look: _Look) -> bool:
+    return sense == "climb" or look.height_m > NO_DESCENT_BELOW_M
+
+
+def _departs(present: Resolution, own: Vertical) -> bool:
+    """Return whether a crew climbs in place of descending, or the other way round."""
+    against_m_s = -own.rate_m_s if present.sense == "climb" else own.rate_m_s
+    return against_m_s >= LEVEL_BELOW_M_S
+
+
+def _stronger(present: Resolution, look: _Look) -> Resolution | None:
+    """Return the next stronger advisory of the same sense; None if there is none."""
     sense, rate_m_s = present
+    lowest_m = NO_DESCENT_BELOW_M if rate_m_s < RATE_M_S else NO_INCREASED_DESCENT_BELOW_M
+    stronger_m_s = RATE_M_S if rate_m_s < RATE_M_S else INCREASED_RATE_M_S
+    may_strengthen = sense == "climb" or look.height_m > lowest_m
+    return Resolution(sense, stronger_m_s) if rate_m_s < stronger_m_s and may_strengthen else None
+
+
+def _reversal(present: Resolution, look: _Look, *, departs: bool) -> Resolution | None:
+    """Return an advisory of the other sense; None if the present one stays."""
+    if not _may_fly(opposite(present.sense), look):
+        return None
+    return reversal(
+        look.own,
+        look.intruder,
+        _stronger(present, look) or present,
+        look.time_s,
+        departs=departs,
+        coordinates=look.track.has_tcas,
+    )
+
+
+def _adjusted(present: Resolution, look: _Look) -> Resolution | None:
+    """Return a stronger or a weaker advisory of the same sense; None if the present one stays."""
     time_s, alim_m = look.time_s, look.level.alim_m
     if is_insufficient(look.own, look.intruder, present, time_s, alim_m):
-        lowest_m = NO_DESCENT_BELOW_M if rate_m_s < RATE_M_S else NO_INCREASED_DESCENT_BELOW_M
-        stronger_m_s = RATE_M_S if rate_m_s < RATE_M_S else INCREASED_RATE_M_S
-        may_strengthen = sense == "climb" or look.height_m > lowest_m
-        is_more = rate_m_s < stronger_m_s
-        return Resolution(sense, stronger_m_s) if is_more and may_strengthen else None
-    if rate_m_s > 0.0 and may_weaken(look.own, look.intruder, sense, time_s, alim_m):
-        return Resolution(sense, 0.0)
+        return _stronger(present, look)
+    if present.rate_m_s > 0.0 and may_weaken(
+        look.own, look.intruder, present.sense, time_s, alim_m
+    ):
+        return Resolution(present.sense, 0.0)
     return None
 
 
@@ -316,7 +379,7 @@ def _is_over(encounter: _Encounter, look: _Look, said: tcas.Alert | None, t_ns: 
     return t_ns - encounter.calm_since_ns >= hold_s * SECOND_NS
 
 
-def _aural(resolution: Resolution, own: Vertical) -> str:
+def _aural(before: Resolution | None, resolution: Resolution, own: Vertical) -> str:
     """Return the announcement of an advisory (FAA, Introduction to TCAS II, table 4)."""
     sense, rate_m_s = resolution
     if rate_m_s == 0.0:
@@ -325,7 +388,9 @@ def _aural(resolution: Resolution, own: Vertical) -> str:
     if rate_m_s == INCREASED_RATE_M_S:
         word = "climb" if sense == "climb" else "descent"
         return f"increase {word}, increase {word}"
-    return f"{sense}, {sense}"
+    said = f"{sense}, {sense}"
+    is_reversal = before is not None and before.sense != sense
+    return f"{said} now, {said} now" if is_reversal else said
 
 
 def _recommendation(resolution: Resolution, look: _Look) -> Recommendation:

@@ -14,6 +14,7 @@ from airhilt.assistant.decision.resolution import resolve
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima, Relative, relative, time_to_loss_s
 from airhilt.messages import Climb, MaintainLevel, Turn
+from airhilt.surveillance.tcas_resolution import Sense
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 from breadth import examples
 
@@ -202,6 +203,19 @@ def test_nothing_that_could_have_been_told_would_have_kept_more_separation(
     turn = Turn(degrees=30)
     weighed = [worth(turn, turn), worth(turn, None), worth(None, turn)]
     assert best >= min(max(weighed), 1.0) - 0.01
+
+
+SENSES = st.sampled_from([None, "climb", "descend"])
+
+
+@examples(60)
+@given(pairs_in_conflict(), SENSES, SENSES, st.booleans())
+def test_nobody_is_told_to_leave_a_sense_that_is_to_stay(
+    pair: tuple[Track, Track], first: Sense | None, second: Sense | None, strong: bool
+) -> None:
+    resolution = resolve(*pair, [], STANDARD, INFRINGED, strong, senses=(first, second))
+    for told, kept in ((resolution.first, first), (resolution.second, second)):
+        assert not isinstance(told, Climb) or kept in (None, told.sense)
 
 
 def test_between_two_others_above_and_below_nobody_climbs_or_descends() -> None:

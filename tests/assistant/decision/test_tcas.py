@@ -106,6 +106,36 @@ def test_once_there_is_room_enough_a_crew_is_told_to_level_off() -> None:
     assert flown.least_ft > 600.0
 
 
+UP, DOWN = (-27.0, 38_000.0, 3000.0), (-27.0, 32_000.0, 3000.0)
+
+
+@pytest.mark.parametrize(
+    ("follows", "departs"),
+    [
+        (ONE, replace(OTHER, ordered=UP)),
+        (ONE, replace(OTHER, ordered=UP, has_tcas=False)),
+        (OTHER, replace(ONE, ordered=DOWN)),
+    ],
+    ids=["the higher address departs", "the other one has none", "the lower address departs"],
+)
+def test_a_sense_that_the_other_one_thwarts_is_reversed_once(follows: Jet, departs: Jet) -> None:
+    """The lower address is sent up first; a controller sends the other one the same way."""
+    flown = meeting(follows, departs, obeys=follows.callsign.__eq__).fly()
+    sense, reversed_ = ("climb", "descend") if follows is ONE else ("descend", "climb")
+    said = f"{reversed_}, {reversed_} now, {reversed_}, {reversed_} now"
+    notes = flown.notes(follows.callsign)
+    assert notes.count(said) == 1
+    assert notes.index(f"{sense}, {sense}") < notes.index(said)
+    assert f"{sense}, {sense}" not in notes[notes.index(said) :]
+    assert flown.least_ft > 300.0
+
+
+def test_nothing_is_reversed_while_the_advisory_in_force_keeps_the_two_apart() -> None:
+    for other in (OTHER, replace(OTHER, has_tcas=False)):
+        flown = meeting(ONE, other, obeys=ONE.callsign.__eq__).fly()
+        assert not [note for note in flown.notes(ONE.callsign) if "now" in note]
+
+
 def test_it_says_clear_of_conflict_once_they_are_past_each_other() -> None:
     flown = meeting(ONE, OTHER, obeys=lambda _: True).fly()
     for callsign in ("AAL1", "DAL2"):
