@@ -49,6 +49,7 @@ def test_a_dry_flight_names_the_seeds_that_bring_about_no_conflict(
 ) -> None:
     file = scenario_file(tmp_path, conflict=NEVER, perturbations=MILE_APART)
     done = airhilt_command("validate", "--dry-fly", "2", "--json", file)
+    assert done.returncode == 1
     assert "no conflict as declared with 2 seeds of 2: 0, 1" in done.stderr
     (row,) = json.loads(done.stdout)
     flown = row["dry_flight"]

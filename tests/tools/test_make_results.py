@@ -207,15 +207,15 @@ def test_encounters_go_on_where_they_were_stopped_unless_the_code_has_changed(
     numbers: list[int] = []
 
     def until_third(left: Iterable[int], *_: object) -> Iterator[list[Counts]]:
-        for number in left:
+        for one in left:
             if len(numbers) == 2:
                 raise KeyboardInterrupt
-            yield from counted([number])
+            yield from counted([one])
 
     def counted(left: Iterable[int], *_: object) -> Iterator[list[Counts]]:
-        for number in left:
-            numbers.append(number)
-            yield flown(number)
+        for one in left:
+            numbers.append(one)
+            yield flown(one)
 
     wanted = Wanted(tmp_path, COMMIT, encounters=4)
     monkeypatch.setattr(sections, "closed_loop_flights", until_third)
