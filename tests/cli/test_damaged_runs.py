@@ -73,7 +73,7 @@ def test_a_replay_that_needs_what_others_said_is_refused_without_it(
     flip(run_copy / "log.mcap", 8 * 2500)
     done = airhilt_command("replay", run_copy)
     assert done.returncode == 2
-    assert "a replay needs it" in done.stderr
+    assert "it is needed here" in done.stderr
 
 
 def test_a_comparison_names_the_run_that_is_damaged(
