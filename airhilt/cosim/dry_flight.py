@@ -30,7 +30,7 @@ class _Part(BaseModel):
 
 
 class DryFlight(_Part):
-    """What one seed comes to."""
+    """Outcome of one seed."""
 
     seed: int
     came_about: bool
@@ -52,7 +52,7 @@ class ClosestApproaches(_Part):
 
 
 class DryFlights(_Part):
-    """What the seeds of one scenario come to."""
+    """Outcomes of the seeds of one scenario."""
 
     scenario: str
     declared: UnassistedOutcome | None

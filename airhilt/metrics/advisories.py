@@ -53,7 +53,7 @@ class AdvisoryRecord:
     is_question: bool = True
     """True if all that it asks of anybody is to confirm what was heard."""
     unfounded: dict[str, None] = field(default_factory=dict)
-    """What it says that it rests on and cannot, in its order."""
+    """Names that it says that it rests on and cannot, in their order."""
     last_s: float = 0.0
     """Time of its last revision."""
     spoken_ns: int | None = None

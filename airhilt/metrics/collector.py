@@ -168,8 +168,10 @@ class Collector:
             self.last_advisory = advisory
         else:
             self._first_warning.ended(advisory.id)
-        is_founded = self._deliveries.is_founded(advisory, self._scenario.pair or ())
-        if is_founded and self._advisories.warns_of_conflict(advisory):
+        pair = self._scenario.pair or ()
+        if self._advisories.warns_of_conflict(advisory) and self._deliveries.is_founded(
+            advisory, pair
+        ):
             is_voiced = self.modalities.get("tts") == "on" or self._is_called(advisory.recipient)
             self._first_warning.warned(advisory, is_voiced)
 

@@ -1,4 +1,4 @@
-"""What a run costs the people in it: broken-off approaches and take-offs, and ways flown aside."""
+"""Costs of a run to the people in it: approaches and take-offs broken off, and ways flown aside."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class CostRecords:
         self._last: dict[str, ActorTruth] = {}
         self._deviations: dict[str, _Deviation] = {}
         self._begun: Counter[str] = Counter()
-        """How often an aircraft came into each phase."""
+        """Number of times that aircraft came into each phase."""
 
     def take_state(self, state: ActorTruth) -> None:
         """Receive the true state of an actor."""

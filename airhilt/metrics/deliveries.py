@@ -1,4 +1,4 @@
-"""What had been delivered to each decider before it decided, and what its warnings rest on."""
+"""Deliveries to each decider before it decided, and what its warnings can rest on by them."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class _Item:
 
 
 class Deliveries:
-    """What each decider had been given when the step began in which it decided.
+    """Messages that each decider had been given when the step began in which it decided.
 
     Parameters
     ----------

@@ -125,9 +125,7 @@ def rate_of(
 def sum_of_ratios(above: Array, below: Array, n: int) -> Estimate:
     """Return the sum of ratios of sums over clusters, with the interval of Student's t.
 
-    Its standard error is that of the residuals of all ratios together (Cochran, Sampling
-    Techniques, 1977, section 6.4). The interval is None for fewer than `FEWEST_CLUSTERS`, and if
-    all clusters agree.
+    The interval is None for fewer than `FEWEST_CLUSTERS`, and if all clusters agree.
 
     Parameters
     ----------
@@ -139,11 +137,9 @@ def sum_of_ratios(above: Array, below: Array, n: int) -> Estimate:
     whole = below.sum(axis=0)
     if not len(above) or not whole.all():
         return UNKNOWN
-    ratios = above.sum(axis=0) / whole
-    value = float(ratios.sum())
-    residuals = ((above - ratios * below) / whole).sum(axis=1)
-    error = math.sqrt(len(above) / max(len(above) - 1, 1) * float((residuals**2).sum()))
-    if len(above) < FEWEST_CLUSTERS or error <= ROUNDING:
+    value = float((above.sum(axis=0) / whole).sum())
+    error = _error_of_ratios(above, below)
+    if len(above) < FEWEST_CLUSTERS or error <= ROUNDING * abs(value):
         return Estimate(value, None, None, n)
     half = _student(len(above)) * error
     return Estimate(value, value - half, value + half, n)
@@ -202,26 +198,30 @@ def effective_number(values: Array, clusters: IntArray, weights: Array | None = 
 
 def _ratio(above: Array, below: Array, clusters: IntArray) -> Estimate:
     """Return the ratio of two sums, with the interval of Student's t over the clusters."""
-    ratio, number = float(above.sum() / below.sum()), len(np.unique(clusters))
-    error = _standard_error(above, below, clusters)
-    if number < FEWEST_CLUSTERS or error <= ROUNDING * abs(ratio):
-        return Estimate(ratio, None, None, above.size)
-    half = _student(number) * error
-    return Estimate(ratio, ratio - half, ratio + half, above.size)
+    sums_above, sums_below = _by_cluster(above, clusters), _by_cluster(below, clusters)
+    return sum_of_ratios(sums_above, sums_below, above.size)
 
 
 def _standard_error(above: Array, below: Array, clusters: IntArray) -> float:
-    """Return the standard error of the ratio of two sums over clusters that are drawn.
+    return _error_of_ratios(_by_cluster(above, clusters), _by_cluster(below, clusters))
+
+
+def _by_cluster(numbers: Array, clusters: IntArray) -> Array:
+    """Return the sum of numbers in each cluster, as the column of one ratio."""
+    numbered = np.unique(clusters, return_inverse=True)[1]
+    return np.bincount(numbered, weights=numbers).astype(np.float64)[:, np.newaxis]
+
+
+def _error_of_ratios(above: Array, below: Array) -> float:
+    """Return the standard error of the sum of ratios of sums over clusters that are drawn.
 
     Cochran, Sampling Techniques, 1977, section 6.4. One cluster has none: it is 0.
     """
-    numbered = np.unique(clusters, return_inverse=True)[1]
-    sums, counts = (np.bincount(numbered, weights=one) for one in (above, below))
-    if sums.size < 2:
+    if len(above) < 2:
         return 0.0
-    residuals = sums - sums.sum() / counts.sum() * counts
-    variance = sums.size / (sums.size - 1) * float((residuals**2).sum())
-    return math.sqrt(variance) / float(counts.sum())
+    whole = below.sum(axis=0)
+    residuals = ((above - above.sum(axis=0) / whole * below) / whole).sum(axis=1)
+    return math.sqrt(len(above) / (len(above) - 1) * float((residuals**2).sum()))
 
 
 def _student(clusters: int) -> float:

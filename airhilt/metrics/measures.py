@@ -119,7 +119,7 @@ COSTS = (
     ADVISORIES,
     ADVICE_SPOKEN,
 )
-"""What a run costs the people in it; what an assistant costs is the difference to a run without."""
+"""Costs of a run to the people in it; those of an assistant are the difference to a run without."""
 MEASURES = (
     TIME_TO_FIRST_WARNING,
     TIME_AFTER_WINDOW,

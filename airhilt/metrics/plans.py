@@ -1,4 +1,4 @@
-"""What the script plans for each aircraft, had nobody been warned: its levels and its path."""
+"""Plans of the script for each aircraft, had nobody been warned: its levels and its path."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ KEEPS_LEVEL = (
 
 @dataclass(frozen=True)
 class Start:
-    """What an aircraft is to do from the start of the run.
+    """Plan of an aircraft from the start of the run.
 
     The usual rate is the vertical speed of a climb for which none was told.
     """

@@ -115,7 +115,7 @@ class EquipmentSummary(_Part):
 
 
 class Costs(_Part):
-    """What the run costs the people in it, whoever caused it, by the truth and the radio.
+    """Costs of the run to the people in it, whoever caused them, by the truth and the radio.
 
     The radio has more: its transmissions, the time on the air, and clarifications.
     """

@@ -1,4 +1,4 @@
-"""What the run costs the people in it, of the summary."""
+"""Costs of the run to the people in it, of the summary."""
 
 from airhilt.report.sections import Section
 

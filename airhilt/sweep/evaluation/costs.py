@@ -1,4 +1,4 @@
-"""What an assistant costs people, as cells of a table."""
+"""Costs of an assistant to people, as cells of a table."""
 
 from __future__ import annotations
 

@@ -14,8 +14,7 @@ from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation import ranking, scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, CONTROLS, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
-from airhilt.sweep.evaluation.ranking import Tried
-from airhilt.sweep.evaluation.tables import Cell, Quantity, Scatter, Table, number, share
+from airhilt.sweep.evaluation.tables import Cell, Scatter, Table, number, share
 from airhilt.sweep.specification import Specification
 
 FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -73,7 +72,8 @@ def tables(results: Results) -> Sequence[Table]:
             own = tried.get(_labelled(each.name, factor))
             if own is None:
                 continue
-            missed, nuisance = _point(own)
+            missed = share(scores.share(own.conflicts, "missed"))
+            nuisance = number(scores.nuisance_per_hour(own.twins))
             index = number(ranking.youden_index(own, nobody), 2)
             rows.append((each.name, f"{factor:g}", missed, nuisance, index))
     characteristic = Table(
@@ -92,13 +92,6 @@ def tables(results: Results) -> Sequence[Table]:
     as_shipped = {each.name: tried[each.name] for each in (*ASSISTANTS, *CONTROLS)
                   if each.name in tried}  # fmt: skip
     return characteristic, ranking.table(as_shipped, nobody)
-
-
-def _point(tried: Tried) -> tuple[Quantity, Quantity]:
-    return (
-        share(scores.share(tried.conflicts, "missed")),
-        number(scores.nuisance_per_hour(tried.twins)),
-    )
 
 
 PRESET = Preset(
