@@ -14,6 +14,7 @@ from click.testing import CliRunner
 
 import airhilt
 from airhilt import Scenario
+from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.cli.commands.rescore import COMMAND
 from airhilt.cosim.replay import replay, rescore
 from airhilt.messages import Event, Severity
@@ -108,3 +109,17 @@ def test_a_service_that_fails_is_a_lost_worker_and_the_run_goes_on(
         invalid = airhilt.run(encounter, out=tmp_path / "invalid", assistant=url, **OPTIONS)
     assert invalid.summary.modalities["decision"] == "lost"
     assert not invalid.summary.advisories
+
+
+def test_scores_are_made_again_though_no_worker_of_the_run_is_there(
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flown = airhilt.run(encounter, out=tmp_path / "run", latency="fixed", cameras=False)
+
+    def nobody_decides(*_: object) -> None:
+        raise AssertionError("the assistant was asked")
+
+    monkeypatch.setattr(DecisionWorker, "step", nobody_decides)
+    summary, verdict = rescore(flown.folder)
+    assert verdict.identical
+    assert scored(summary) == scored(flown.summary)
