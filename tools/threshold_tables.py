@@ -1,4 +1,4 @@
-"""Writes the tables of rules and thresholds in docs/decision.md from the models of the engines.
+"""Writes the tables of rules and thresholds in docs/thresholds.md from the models of the engines.
 
 python tools/threshold_tables.py
 """
@@ -13,7 +13,7 @@ from pydantic import BaseModel
 from airhilt.configuration import settings
 from airhilt.engine_families import ASSISTANTS
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "decision.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "thresholds.md"
 TABLE = re.compile(r"(<!-- thresholds of (\w+) -->\n).*?(?=<!-- end -->)", re.DOTALL)
 """A table, after a comment that says of which engine it is."""
 
