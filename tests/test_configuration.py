@@ -78,7 +78,7 @@ def test_every_setting_says_what_it_is_and_time_its_unit_and_source(name: str) -
 
 
 def test_the_engine_of_the_page_has_its_configuration() -> None:
-    blocks = re.findall(r"```python\n(.*?)```", (DOCS / "decision.md").read_text(), re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", (DOCS / "your-assistant.md").read_text(), re.DOTALL)
     names: dict[str, Any] = {}
     exec(next(block for block in blocks if "class Calm" in block), names)
     engine = names["ENGINE"]

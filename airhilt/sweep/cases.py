@@ -270,7 +270,7 @@ class RunChecks:
             raise AirhiltError(
                 "--assistant external: no worker or program of yours attaches to the runs of a "
                 "sweep, so nobody would decide; expected an assistant that `airhilt doctor` names, "
-                "one of a package of yours, or the address of a service (docs/decision.md)"
+                "one of a package of yours, or the address of a service (docs/your-assistant.md)"
             )
 
     def _require_latency(self, options: Options, scenario: Scenario) -> None:

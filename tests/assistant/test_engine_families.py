@@ -97,7 +97,9 @@ class Deer:
 ENGINE = Engine("everything_is_a_deer", "finds a deer in every picture", lambda _: Deer())
 """
 )
-BLOCKS = re.findall(r"```python\n(.*?)```", (DOCS / "decision.md").read_text(), flags=re.DOTALL)
+BLOCKS = re.findall(
+    r"```python\n(.*?)```", (DOCS / "your-assistant.md").read_text(), flags=re.DOTALL
+)
 ASSISTANT, WORDING = (
     next(block for block in BLOCKS if f"class {name}:" in block) for name in ("Nervous", "Shouting")
 )

@@ -22,7 +22,7 @@ from paths import DOCS, EXAMPLES
 
 
 def engine_of_the_page() -> Any:
-    blocks = re.findall(r"```python\n(.*?)```", (DOCS / "decision.md").read_text(), re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", (DOCS / "your-assistant.md").read_text(), re.DOTALL)
     names: dict[str, Any] = {}
     exec(next(block for block in blocks if "class Nervous" in block), names)
     return names["Nervous"]()
@@ -37,10 +37,12 @@ def event_texts(result: Result, kind: str) -> Sequence[tuple[str, str]]:
     return [(event["subject"], event["text"]) for event in events if event["kind"] == kind]
 
 
-@pytest.mark.parametrize("source", mostly_slow(["sdk_worker.py", "decision.md"], "decision.md"))
+@pytest.mark.parametrize(
+    "source", mostly_slow(["sdk_worker.py", "your-assistant.md"], "your-assistant.md")
+)
 def test_a_worker_of_the_examples_keeps_separation(source: str, tmp_path: Path) -> None:
     worker: Any
-    if source == "decision.md":
+    if source == "your-assistant.md":
         worker = DecisionWorker(engine_of_the_page(), Template(), name="mine")
     else:
         worker = runpy.run_path(str(EXAMPLES / source))["SimpleWorker"]()
