@@ -145,8 +145,8 @@ class RememberingGuard(ConfidenceGuard):
 
     A crew that is asked to confirm says the same words again. They are wrong only if both calls
     were recognised wrongly, and the errors of two calls of one voice are taken to be independent:
-    see docs/decision.md, "Words in doubt". No more than two calls are joined, because no more were
-    measured.
+    see docs/reference-assistant.md, "Words in doubt". No more than two calls are joined, because no
+    more were measured.
 
     Each slot is joined separately, and only with calls of the same side: whether a readback agrees
     with its instruction is another question. Callsigns are not joined, because their confidence is

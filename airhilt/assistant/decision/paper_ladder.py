@@ -3,7 +3,7 @@
 (a) A readback is wrong while the runway is in use: CAUTION. (b) The runway is occupied, and its
 user has 8 s to go or is an arrival: WARNING. (c) It is not clear whom a call was for, or somebody
 else took it, while the runway is in use: CAUTION. On a runway where none of these fires, a weighted
-score decides. docs/decision.md says what of this is the paper's word, and what is assumed.
+score decides. docs/baselines.md says what of this is the paper's word, and what is assumed.
 """
 
 from __future__ import annotations
