@@ -12,12 +12,10 @@ from pydantic import TypeAdapter
 
 from airhilt import __version__
 from airhilt.cli.main import cli
-from airhilt.host.library import names
 from airhilt.messages import json_schemas
-from airhilt.report.sections.warning import condition_text
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera, Perturbation, RadioLine
-from airhilt.world.loading import load, load_text
+from airhilt.world.loading import load_text
 from paths import ROOT
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -115,14 +113,3 @@ def test_what_the_dockerfile_copies_is_let_through() -> None:
     assert copied
     assert all((ROOT / name).exists() for name in copied)
     assert copied <= set(re.findall(r"^!(\S+)$", ignore, flags=re.MULTILINE))
-
-
-def test_the_table_of_begins_is_that_of_the_scenarios() -> None:
-    page = (ROOT / "docs" / "metrics.md").read_text()
-    told = dict(re.findall(r"^\| `(s0\w+)` \| `([^`]+)` \| \S.* \|$", page, flags=re.MULTILINE))
-    conflicts = {name: load(name).conflict for name in names("scenarios")}
-    assert told == {
-        name: condition_text(conflict.begins.model_dump(mode="json"))
-        for name, conflict in conflicts.items()
-        if conflict is not None
-    }

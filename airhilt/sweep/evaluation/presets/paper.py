@@ -34,7 +34,7 @@ FIRST_DETECTION_M = 125.0
 """Range of the first detection in the paper, about, in m."""
 GIVEN = "given by --latency"
 PARTS = ("speech", "recognition", "evidence", "decision", "voice")
-"""Parts of the time to first warning (docs/metrics.md)."""
+"""Parts of the time to first warning (docs/first-warning.md)."""
 COSTS = ("broken off", "advisories, 1/h")
 
 
