@@ -4,8 +4,8 @@
         --endpoint tcp/127.0.0.1:7447
     python examples/plain_zenoh_seat.py tcp/127.0.0.1:7447
 
-Start it once the run has begun. The program takes the seat of the tower, says a call, prints what is recognised
-and which tasks are due, and leaves the seat.
+Start it once the run has begun. The program takes the seat of the tower, says a call, prints what
+is recognised and which tasks are due, and leaves the seat.
 """
 
 import json
