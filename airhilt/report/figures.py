@@ -24,7 +24,7 @@ COLOURS = (
     "#005fa8", "#b5440c", "#00704f", "#8d3a7c", "#735b00", "#006b7d", "#a0263f", "#5a52b8",
 )  # fmt: skip
 """Colours of up to eight series, as on all pages; from there on they begin again."""
-MARKERS = "osD^vPX*"
+MARKERS = "osD^vPX*<>hp"
 """Marks of the series, which tell them apart without colour."""
 CSS = {INK: "--ink", DIM: "--dim", GRID: "--grid", PANEL: "--panel"} | {
     colour: f"--c{index}" for index, colour in enumerate(COLOURS)

@@ -30,9 +30,21 @@ def draw(figures: Figures, name: str, table: Mapping[str, Any], *, on_panel: boo
         for place, (label, points) in enumerate(_series(table, wanted["x"], wanted["y"])):
             _plot(axes, place, label, points)
         axes.set(xlabel=wanted["x"], ylabel=wanted["y"])
+        if wanted["x_scale"] == "symlog":
+            _scale_by_logarithm(axes)
         axes.grid(visible=True)
         if axes.lines:
             figure.legend(loc="outside right upper")
+
+
+def _scale_by_logarithm(axes: Axes) -> None:
+    """Let the x axis, of rates, go by the logarithm from 1 on, and begin a little below 0."""
+    from matplotlib.ticker import SymmetricalLogLocator
+
+    axes.set_xscale("symlog", linthresh=1.0)
+    axes.set_xlim(left=-0.2)
+    axes.xaxis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=1.0, subs=(1.0, 3.0)))
+    axes.xaxis.set_major_formatter("{x:g}")
 
 
 def _series(

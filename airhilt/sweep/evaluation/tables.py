@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -35,6 +36,9 @@ class Scatter(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     x: str
     y: str
+    x_scale: Literal["linear", "symlog"] = Field(
+        default="linear", description="symlog: by the logarithm from 1 on, as rates need it"
+    )
 
 
 class Table(BaseModel):

@@ -87,7 +87,7 @@ def tables(results: Results) -> Sequence[Table]:
             "assistant tells of it; one without any has one point. In brackets, and as bands: "
             "95 % interval.",
         ),
-        figure=Scatter(x="nuisance, 1/h", y="missed"),
+        figure=Scatter(x="nuisance, 1/h", y="missed", x_scale="symlog"),
     )
     as_shipped = {each.name: tried[each.name] for each in (*ASSISTANTS, *CONTROLS)
                   if each.name in tried}  # fmt: skip
