@@ -59,7 +59,7 @@ def require_no_equipment(participants: Sequence[Participant]) -> None:
         if each.description.modality == EQUIPMENT:
             raise WorkerError(
                 f"worker {each.description.name!r} has the modality {EQUIPMENT!r}; expected "
-                "decision: equipment is in the scenario (docs/scenarios.md#equipment)"
+                "decision: equipment is in the scenario (docs/equipment.md)"
             )
 
 

@@ -26,7 +26,7 @@ from airhilt.units import SECOND_NS
 TEXT = "text"
 """Engine of transcripts that were not recognised: the words of a call without sound."""
 REPEAT = re.compile(r"\.repeat-[0-9]+$")
-"""End of the id of a call that is made again (docs/radio.md)."""
+"""End of the id of a call that is made again (docs/transmissions.md)."""
 
 
 OF_CALLS = (Transmission, Transcript, SpokenTruth, HearingTruth, AdvisoryAudio)

@@ -117,7 +117,7 @@ class Instruction:
     immediate: bool = False
     """True if it is to be done at once or without delay."""
     confidence: float = field(default=1.0, compare=False)
-    """Confidence in [0, 1] that this was said; see docs/phraseology.md."""
+    """Confidence in [0, 1] that this was said; see docs/parser-accuracy.md."""
     action_heard: float = field(default=1.0, compare=False)
     """Least confidence of the recogniser in the words of the action, in [0, 1]."""
     details_heard: float = field(default=1.0, compare=False)
@@ -193,7 +193,7 @@ class Call:
     pressure_hpa: float | None = None
     """Altimeter setting."""
     confidence: float = 0.0
-    """Confidence in [0, 1] that all of it is right; see docs/phraseology.md."""
+    """Confidence in [0, 1] that all of it is right; see docs/parser-accuracy.md."""
     text: str = field(default="", compare=False)
     """Its words, with ``|`` for its callsign."""
 

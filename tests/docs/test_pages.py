@@ -12,6 +12,7 @@ from pydantic import TypeAdapter
 
 from airhilt import __version__
 from airhilt.cli.main import cli
+from airhilt.commands import Command
 from airhilt.messages import json_schemas
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera, Perturbation, RadioLine
@@ -26,13 +27,17 @@ def json_blocks(page: str) -> list[str]:
     return re.findall(r"```json\n(.*?)```", text, flags=re.DOTALL)
 
 
-def test_the_examples_of_the_scenario_guide_are_valid() -> None:
-    scenario, line, perturbation, equipment, cameras = json_blocks("scenarios.md")
+def test_the_examples_of_the_scenario_pages_are_valid() -> None:
+    scenario, line, cameras = json_blocks("scenarios.md")
+    (perturbation,) = json_blocks("perturbations.md")
+    (equipment,) = json_blocks("equipment.md")
+    (command,) = json_blocks("commands.md")
     assert load_text(scenario, "guide").name == "crossing"
     equipped = json.loads(scenario) | {"equipment": json.loads(equipment)["equipment"]}
     assert load_text(json.dumps(equipped), "guide").equipment == ("tcas", "conflict_alert")
     RadioLine.model_validate_json(line)
     Perturbation.model_validate_json(perturbation)
+    TypeAdapter(Command).validate_json(command)
     assert len(TypeAdapter(tuple[Camera, ...]).validate_json(cameras)) == 2
 
 

@@ -337,7 +337,7 @@ ON_FREQUENCY = (
 
 
 def test_the_score_says_what_of_a_callsign_was_said(subtests: pytest.Subtests) -> None:
-    """As the table of docs/phraseology.md has it."""
+    """As the table of docs/parser-accuracy.md has it."""
     for said, callsign, score in [
         ("american one two three", "AAL123", 1.0),
         ("american one two three heavy", "AAL123", 1.0),

@@ -25,13 +25,12 @@ from airhilt.world.loading import load_text
 from paths import ROOT
 from shortened import shortened
 
-GUIDE = (ROOT / "docs" / "sensors.md").read_text()
+GUIDE = (ROOT / "docs" / "adding-a-sensor.md").read_text()
 
 
 def block(language: str) -> str:
-    """Return the first block of the chapter on sensors of one's own."""
-    chapter = GUIDE.split("## A sensor of your own")[1]
-    found = re.search(rf"```{language}\n(.*?)```", chapter, flags=re.DOTALL)
+    """Return the first block of the guide in a language."""
+    found = re.search(rf"```{language}\n(.*?)```", GUIDE, flags=re.DOTALL)
     assert found is not None
     return found[1]
 

@@ -18,7 +18,7 @@ from airhilt.units import SECOND_NS
 
 Slot = Literal["callsign", "action", "runway", "altitude"]
 AMBIGUOUS = 0.5
-"""Confidence in a callsign that may be either of two, as in docs/phraseology.md."""
+"""Confidence in a callsign that may be either of two, as in docs/parser-accuracy.md."""
 REPEATED_NS = 120 * SECOND_NS
 """Greatest time between two calls that are joined, in ns: as long as a doubt matters."""
 

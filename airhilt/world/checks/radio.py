@@ -26,7 +26,7 @@ GENERATED_ID = re.compile(
     r"\.(?:readback|correction|request|contact|end|report-[a-z0-9-]+|(?:repeat|say-again|confirmation)-[0-9]+)$",
     re.IGNORECASE,
 )
-"""Beginnings and endings of the ids of calls that are not in the script (docs/radio.md)."""
+"""Beginnings and endings of the ids of calls that are not in the script (docs/transmissions.md)."""
 CHANNELS_KHZ = tuple(name for name in range(118_000, 136_991, 5) if name % 25 < 20)
 """Names of the channels of the aeronautical VHF band, in kHz: in each 25 kHz one of that spacing,
 and three of 8.33 kHz, named 5, 10 and 15 above it (ICAO Annex 10 volume V, table 4-1 bis)."""
