@@ -76,6 +76,15 @@ _MOVEMENTS_KT = tuple(
     for index in range(count)
 )
 """Lower limit and middle of the step of each movement code from 2 to 123, in kt."""
+_SPEEDS_KT = (0.0, *(middle for _, middle in _MOVEMENTS_KT), FASTEST_MOVEMENT_KT)
+"""Speed that each movement code from 1 to 124 tells, in kt."""
+
+
+def movement_code(speed_kt: float) -> int:
+    """Return the code of a speed in the movement field: 1 is a standstill, 124 more than 175 kt."""
+    if speed_kt > FASTEST_MOVEMENT_KT:
+        return 2 + len(_MOVEMENTS_KT)
+    return 1 + bisect.bisect_left(_MOVEMENTS_KT, (speed_kt,))
 
 
 def movement_kt(speed_kt: float) -> float:
@@ -83,7 +92,4 @@ def movement_kt(speed_kt: float) -> float:
 
     It is 0 for a standstill and 175 for all speeds above.
     """
-    if speed_kt > FASTEST_MOVEMENT_KT:
-        return FASTEST_MOVEMENT_KT
-    code = bisect.bisect_left(_MOVEMENTS_KT, (speed_kt,))
-    return _MOVEMENTS_KT[code - 1][1] if code else 0.0
+    return _SPEEDS_KT[movement_code(speed_kt) - 1]
