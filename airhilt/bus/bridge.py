@@ -135,6 +135,33 @@ def serve_reports(
         feed.close()
 
 
+def datagrams(host: str, port: int) -> Callable[[bytes], None]:
+    """Return what sends UDP datagrams to a host, or to all hosts at a broadcast address.
+
+    Nobody has to listen there: what cannot be sent is lost.
+
+    Raises
+    ------
+    BusError
+        There is no such host or port.
+    """
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_DGRAM)[
+            0
+        ]
+    except (OSError, OverflowError) as error:
+        raise BusError(f"cannot send to {host}:{port}: {error}; see --to and --port") from None
+    sender = socket.socket(family, kind, protocol)
+    sender.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
+    sender.setblocking(False)
+
+    def send(data: bytes) -> None:
+        with contextlib.suppress(OSError):
+            sender.sendto(data, address)
+
+    return send
+
+
 class WallClock:
     """Gives times of a run as times of day, as if the first of them were now."""
 

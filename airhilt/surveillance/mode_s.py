@@ -127,8 +127,8 @@ def identity_code(squawk: str | None) -> int:
     return _packed([*first, (0, 1), *second])
 
 
-def _identification(callsign: str) -> int:
-    """Return a flight identification of eight characters (ICAO, 3.1.2.9.1.2)."""
+def identification_code(callsign: str) -> int:
+    """Return a flight identification of eight characters as 48 bits (ICAO, 3.1.2.9.1.2)."""
     return _packed((CHARACTERS.index(character), 6) for character in f"{callsign[:8]:8}")
 
 
@@ -184,7 +184,7 @@ def _signed(value: int, bits: int) -> tuple[tuple[int, int], tuple[int, int]]:
 def identification(callsign: str, category: EmitterCategory) -> int:
     """Return the message of callsign and emitter category (MOPS, 2.2.3.2.5)."""
     type_code = 4 - "ABCD".index(category[0])
-    return _packed([(type_code, 5), (int(category[1]), 3), (_identification(callsign), 48)])
+    return _packed([(type_code, 5), (int(category[1]), 3), (identification_code(callsign), 48)])
 
 
 def aircraft_status(emergency: EmergencyState, squawk: str | None) -> int:
@@ -273,4 +273,4 @@ class Surveillance(NamedTuple):
 
     def _register(self) -> tuple[int, int]:
         """Return register 2,0 of the transponder, the aircraft identification."""
-        return 0x20 << 48 | _identification(self.callsign), 56
+        return 0x20 << 48 | identification_code(self.callsign), 56
