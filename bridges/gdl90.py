@@ -72,9 +72,7 @@ def report_message(identifier: int, report: AdsbReport) -> bytes:
         + bytes.fromhex(report.icao24)
         + _angle(report.latitude_deg)
         + _angle(report.longitude_deg)
-        + (altitude << 4 | (TRUE_HEADING if report.on_ground else TRUE_TRACK | AIRBORNE)).to_bytes(
-            2
-        )
+        + (altitude << 4 | direction).to_bytes(2)
         + bytes([report.nic << 4 | report.nacp])
         + (speed << 12 | rate & 0xFFF).to_bytes(3)
         + bytes([round(report.track_deg * 256.0 / 360.0) % 256])

@@ -175,7 +175,7 @@ class WallClock:
         return self._epoch + timedelta(seconds=t_ns / SECOND_NS)
 
 
-class _Client(NamedTuple):
+class Client(NamedTuple):
     """A connected program, and what waits for it; None is the end."""
 
     connection: socket.socket
@@ -184,10 +184,16 @@ class _Client(NamedTuple):
 
 
 class Feed:
-    """Sends bytes to every connected program; one that falls behind is let go."""
+    """Sends bytes to every connected program; one that falls behind is let go.
+
+    Attributes
+    ----------
+    clients
+        The connected programs.
+    """
 
     def __init__(self) -> None:
-        self._clients: list[_Client] = []
+        self.clients: list[Client] = []
 
     def listen(self, port: int) -> None:
         """Accept programs on a port of the loopback address; raise `BusError` if it is taken."""
@@ -209,7 +215,7 @@ class Feed:
 
     def send(self, data: bytes) -> None:
         """Queue bytes for all clients."""
-        for client in list(self._clients):
+        for client in list(self.clients):
             try:
                 client.waiting.put_nowait(data)
             except queue.Full:
@@ -218,7 +224,7 @@ class Feed:
     def close(self) -> None:
         """Let clients take what waits for them, for a moment, and disconnect them."""
         deadline = time.monotonic() + LAST_S
-        clients = list(self._clients)
+        clients = list(self.clients)
         for client in clients:
             with contextlib.suppress(queue.Full):
                 client.waiting.put_nowait(None)
@@ -240,20 +246,20 @@ class Feed:
         """Serve a client on a thread of its own."""
         waiting: queue.Queue[bytes | None] = queue.Queue(WAITING)
         thread = threading.Thread(target=lambda: self._serve(client), daemon=True)
-        client = _Client(connection, waiting, thread)
-        self._clients.append(client)
+        client = Client(connection, waiting, thread)
+        self.clients.append(client)
         thread.start()
         return thread
 
-    def _serve(self, client: _Client) -> None:
+    def _serve(self, client: Client) -> None:
         with contextlib.suppress(OSError), client.connection:
             while (data := client.waiting.get()) is not None:
                 client.connection.sendall(data)
         self._let_go(client)
 
-    def _let_go(self, client: _Client) -> None:
+    def _let_go(self, client: Client) -> None:
         """Forget a client, and end whatever still sends to it."""
         with contextlib.suppress(OSError):
             client.connection.shutdown(socket.SHUT_RDWR)
         with contextlib.suppress(ValueError):
-            self._clients.remove(client)
+            self.clients.remove(client)
