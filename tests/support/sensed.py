@@ -36,10 +36,14 @@ class Acting:
     body: Body
     emitter_category: str = "A3"
     emergency: str = "none"
+    squawks: str | None = None
+    """Code that it has set; None: that of the scenario."""
 
     @property
     def squawk(self) -> str | None:
         """The code of an aircraft with a transponder; the others answer no radar."""
+        if self.squawks is not None:
+            return self.squawks
         if not (isinstance(self.spec, AircraftSpec) and self.spec.transponder.equipped):
             return None
         return self.spec.transponder.squawk or discrete_code(self.spec.icao24)
