@@ -140,7 +140,7 @@ def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_b
 
 def test_a_report_has_the_squawk_and_the_status_of_the_instant_of_its_squitter() -> None:
     run = Run(seconds=10.0)
-    actor = run.sensor.sources[0].actor
+    actor: Any = run.sensor.sources[0].actor
     before = actor.squawk
 
     def declare() -> None:
