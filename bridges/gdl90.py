@@ -91,23 +91,26 @@ def _angle(degrees: float) -> bytes:
 
 
 class Traffic:
-    """The latest report of each sender since the last second."""
+    """The latest report of each sender since the last second; for two threads."""
 
     def __init__(self, ownship: str | None) -> None:
         self._ownship = ownship
         self._own: AdsbReport | None = None
         self._others: dict[str, AdsbReport] = {}
+        self._lock = threading.Lock()
 
     def hear(self, report: AdsbReport) -> None:
         """Take a report."""
         if report.icao24 == self._ownship:
             self._own = report
         else:
-            self._others[report.icao24] = report
+            with self._lock:
+                self._others[report.icao24] = report
 
     def messages(self, when: datetime) -> Iterator[bytes]:
         """Yield the messages of a second."""
-        others, self._others = self._others, {}
+        with self._lock:
+            others, self._others = self._others, {}
         yield heartbeat(when, len(others), has_position=self._own is not None)
         if self._own is not None:
             yield report_message(OWNSHIP, self._own)

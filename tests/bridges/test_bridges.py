@@ -242,6 +242,20 @@ def received() -> dict[str, bytes]:
         return heard
 
 
+def test_a_bridge_ends_with_a_run_that_goes_without_a_word() -> None:
+    port = free_port()
+    with closing(Bus("run")) as bus:
+        program = subprocess.Popen(command("sbs1.py", bus.endpoint, port))
+        with connected(port) as client:
+
+            def is_heard() -> bool:
+                bus.put("adsb/a1b2c3", REPORT.model_dump_json().encode())
+                return bool(list(pieces(client)))
+
+            wait_until(is_heard)
+    assert program.wait(timeout=LONG_S) == 0
+
+
 def is_of_both(data: bytes) -> bool:
     """Return whether both aircraft are in what a bridge gave out, as text or as bytes."""
     return all(
