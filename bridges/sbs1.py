@@ -2,112 +2,57 @@
 
     python bridges/sbs1.py --connect tcp/127.0.0.1:7447 --port 30003
 
-Each report becomes one line, of type MSG,3 in the air and MSG,2 on the ground. Times are simulation
-times, as if the run had begun at midnight of 1 January 1970. The feed listens on the loopback
-address and ends with the run.
+Each report becomes one line, of type MSG,3 in the air and MSG,2 on the ground. Times are those of
+the run, as if its first report came now. The feed listens on the loopback address and ends with the
+run.
 """
 
 from __future__ import annotations
 
-import argparse
-import contextlib
-import queue
-import socket
-import sys
-import threading
-from datetime import UTC, datetime, timedelta
-from pathlib import Path
+from datetime import datetime
 
-import zenoh
-
-from airhilt.bus.session import ROOT, connect_client
-from airhilt.errors import BusError
-from airhilt.messages import AdsbReport, Clock
-from airhilt.units import SECOND_NS
-
-EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+from airhilt.bus.bridge import WallClock, serve_reports
+from airhilt.messages import AdsbReport
+from airhilt.surveillance.transponders import EMERGENCY_CODES
 
 
-def line(report: AdsbReport) -> str:
+def line(report: AdsbReport, when: datetime) -> str:
     """Return a report as one line of the feed (without its end).
 
-    Type 3 is an airborne position, type 2 a surface position, which has no altitude.
+    Type 3 is an airborne position, type 2 a surface position, which has no altitude. A flag is -1
+    if it is set. The alert flag says that the squawk is that of an emergency.
     """
-    when = EPOCH + timedelta(seconds=report.t_adsb_out_ns / SECOND_NS)
     date, clock = when.strftime("%Y/%m/%d"), when.strftime("%H:%M:%S.%f")[:-3]
-    kind, ground = ("2", "-1") if report.on_ground else ("3", "0")
-    altitude = "" if report.altitude_ft is None else f"{report.altitude_ft:.0f}"
+    altitude = "" if report.altitude_ft is None else str(round(report.altitude_ft))
     return ",".join(
         [
-            "MSG", kind, "1", "1", report.icao24.upper(), "1", date, clock, date, clock,
-            report.callsign or "", altitude, f"{report.ground_speed_kt:.0f}",
-            f"{report.track_deg:.0f}", f"{report.latitude_deg:.5f}",
-            f"{report.longitude_deg:.5f}", f"{report.vertical_rate_fpm:.0f}", "", "0", "0", "0",
-            ground,
+            "MSG", "2" if report.on_ground else "3", "1", "1", report.icao24.upper(), "1",
+            date, clock, date, clock, report.callsign or "", altitude,
+            str(round(report.ground_speed_kt)), str(round(report.track_deg) % 360),
+            _degrees(report.latitude_deg), _degrees(report.longitude_deg),
+            str(round(report.vertical_rate_fpm)), report.squawk or "",
+            _flag(report.squawk in EMERGENCY_CODES), _flag(report.emergency != "none"), "0",
+            _flag(report.on_ground),
         ]
     )  # fmt: skip
 
 
-class Feed:
-    """A TCP server that sends every line to every client; one that falls behind is let go."""
+def _degrees(angle_deg: float) -> str:
+    return f"{round(angle_deg, 5) + 0.0:.5f}"  # Adding 0 leaves no -0.
 
-    WAITING_LINES = 1000
 
-    def __init__(self, port: int) -> None:
-        self._server = socket.create_server(("127.0.0.1", port))
-        self._clients: list[queue.Queue[str]] = []
-        threading.Thread(target=self._accept, daemon=True).start()
-
-    def send(self, text: str) -> None:
-        """Queue a line for all clients."""
-        for client in list(self._clients):
-            try:
-                client.put_nowait(text)
-            except queue.Full:
-                self._clients.remove(client)
-
-    def _accept(self) -> None:
-        with contextlib.suppress(OSError):
-            while True:
-                connection, _ = self._server.accept()
-                client: queue.Queue[str] = queue.Queue(self.WAITING_LINES)
-                self._clients.append(client)
-                threading.Thread(target=self._serve, args=(connection, client), daemon=True).start()
-
-    def _serve(self, connection: socket.socket, client: queue.Queue[str]) -> None:
-        with contextlib.suppress(OSError), connection:
-            while True:
-                connection.sendall(f"{client.get()}\r\n".encode())
-        with contextlib.suppress(ValueError):
-            self._clients.remove(client)
+def _flag(is_set: bool) -> str:
+    return "-1" if is_set else "0"
 
 
 def main() -> None:
     """Run the bridge until the run is over."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--connect", help="the run's endpoint, if not that of the keys")
-    parser.add_argument("--tls", type=Path, help="folder with observer.json of `airhilt keys init`")
-    parser.add_argument("--port", type=int, default=30003, help="where clients connect")
-    given = parser.parse_args()
-    feed = Feed(given.port)
-    try:
-        session = connect_client(given.connect, 30.0, given.tls, "observer")
-    except BusError as error:
-        sys.exit(str(error))
+    times = WallClock()
 
-    def forward(sample: zenoh.Sample) -> None:
-        feed.send(line(AdsbReport.model_validate_json(sample.payload.to_bytes())))
+    def encode(report: AdsbReport) -> bytes:
+        return f"{line(report, times.at(report.t_adsb_out_ns))}\r\n".encode()
 
-    adsb = session.declare_subscriber(f"{ROOT}/*/adsb/*", forward)
-    clock = session.declare_subscriber(f"{ROOT}/*/clock")
-    for sample in clock:
-        message = Clock.model_validate_json(sample.payload.to_bytes())
-        if message.phase in ("finished", "stopped"):
-            break
-    adsb.undeclare()  # type: ignore[no-untyped-call]
-    session.close()  # type: ignore[no-untyped-call]
+    serve_reports(__doc__, 30003, encode)
 
 
 if __name__ == "__main__":

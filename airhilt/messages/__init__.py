@@ -114,7 +114,9 @@ from airhilt.messages.seats import (
     WorkloadQuestion,
 )
 from airhilt.messages.surveillance import (
+    EMERGENCY_STATES,
     AdsbReport,
+    EmergencyState,
     EmitterCategory,
     PlotKind,
     RadarInfo,

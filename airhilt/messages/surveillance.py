@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 from pydantic import Field
 
@@ -15,6 +15,13 @@ EmitterCategory = Literal[
 ]  # fmt: skip
 """ADS-B emitter category (DO-260B, 2.2.3.2.5.2): A1 light, A2 small, A3 large, A5 heavy aircraft,
 B6 unmanned aircraft, C1 emergency, C2 service surface vehicle; A0, B0, C0 no information."""
+EmergencyState = Literal[
+    "none", "general", "medical", "minimum_fuel", "no_communications", "unlawful_interference",
+    "downed",
+]  # fmt: skip
+"""Emergency or priority status of ADS-B (DO-260B, 2.2.3.2.7.8.1.1)."""
+EMERGENCY_STATES: tuple[EmergencyState, ...] = get_args(EmergencyState)
+"""All of them, in the order of their codes."""
 
 
 class AdsbReport(Message):
@@ -36,6 +43,22 @@ class AdsbReport(Message):
     )
     track_deg: float = Field(default=0.0, ge=0.0, lt=360.0)
     vertical_rate_fpm: float = Field(default=0.0, description="in steps of 64 ft/min")
+    squawk: str | None = Field(
+        default=None,
+        pattern=r"^[0-7]{4}$",
+        description="Mode A code, octal; null if the sender, such as a vehicle, has none",
+    )
+    emergency: EmergencyState = Field(default="none", description="emergency or priority status")
+    nic: int = Field(
+        default=0, ge=0, le=11, description="navigation integrity category; 0: unknown"
+    )
+    sil: int = Field(
+        default=0,
+        ge=0,
+        le=3,
+        description="source integrity level: how rarely the position is outside the bound of the "
+        "NIC, 3 for 1e-7; 0: unknown",
+    )
     nacp: int = Field(ge=0, le=11, description="navigation accuracy category for position")
     nacv: int = Field(ge=0, le=4, description="navigation accuracy category for velocity")
     receiver: str

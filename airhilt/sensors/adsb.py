@@ -110,6 +110,8 @@ class AdsbSensor(Sensor):
         body = source.actor.body
         if body.ended is not None:
             return
+        source.transponder.squawk = source.actor.squawk
+        source.transponder.emergency = source.actor.emergency
         now_ns = self._director.now_ns
         send = partial(self._receive, source.transponder)
         wait_ns = squitter(self._state_of(body), now_ns, send)
@@ -169,6 +171,8 @@ class _Source:
             spec.transponder.nacv,
             stream(seed, f"adsb/{spec.icao24}"),
             actor.emitter_category,
+            spec.transponder.nic,
+            spec.transponder.sil,
         )
         self._rate = SurfaceRate()
         self._position_due_ns = 0

@@ -33,7 +33,6 @@ from airhilt.surveillance.radar import (
     SECONDARY_PROBABILITY,
     Antenna,
     LineOfSight,
-    discrete_code,
     mode_c_ft,
 )
 from airhilt.surveillance.squitters import quantise
@@ -70,8 +69,6 @@ class _Target:
 
     actor: Actor
     cross_section_m2: float
-    squawk: str | None
-    """Mode A code; None without a transponder that answers radars."""
     generator: np.random.Generator
     behind_rad: float | None = None
     """Angle by which the beam was past the target at the end of the last sector."""
@@ -97,7 +94,6 @@ class TurningRadar(Sensor):
             _Target(
                 actor,
                 cross_section_m2(actor),
-                _squawk(actor),
                 stream(context.seed, f"radar/{self._site}/{callsign}"),
             )
             for callsign, actor in context.actors.items()
@@ -161,8 +157,9 @@ class TurningRadar(Sensor):
         has_echo = self._returns_echo(state, line) and (
             echo < model.detection_probability(target.cross_section_m2, line.range_m)
         )
+        squawk = target.actor.squawk
         has_reply = (
-            target.squawk is not None
+            squawk is not None
             and not target.actor.body.on_ground
             and line.range_m <= model.secondary_range_m
             and reply < SECONDARY_PROBABILITY
@@ -180,7 +177,7 @@ class TurningRadar(Sensor):
                 line.azimuth_rad / DEGREE + accuracy.azimuth_deg * azimuth_error, AZIMUTH_STEP_DEG
             )
             % 360.0,
-            mode_a=target.squawk if has_reply and mode_a_valid < MODE_A_PROBABILITY else None,
+            mode_a=squawk if has_reply and mode_a_valid < MODE_A_PROBABILITY else None,
             mode_c_ft=(
                 mode_c_ft(state.altitude_m)
                 if has_reply and mode_c_valid < MODE_C_PROBABILITY
@@ -221,13 +218,6 @@ def cross_section_m2(actor: Actor) -> float:
     if isinstance(actor.spec, AircraftSpec):
         return AIRCRAFT_CROSS_SECTION_M2[actor.emitter_category]
     return load_kind(actor.spec.kind).radar_cross_section_m2
-
-
-def _squawk(actor: Actor) -> str | None:
-    """Return the Mode A code of an aircraft with a transponder; vehicles do not answer radars."""
-    if not isinstance(actor.spec, AircraftSpec) or not actor.spec.transponder.equipped:
-        return None
-    return actor.spec.transponder.squawk or discrete_code(actor.spec.icao24)
 
 
 def plot_kind(has_echo: bool, has_reply: bool) -> PlotKind:

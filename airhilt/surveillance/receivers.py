@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
-from airhilt.messages import AdsbReport
+from airhilt.messages import AdsbReport, EmergencyState
 from airhilt.surveillance import cpr
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.surveillance.squitters import (
@@ -42,6 +42,8 @@ class Decoded(NamedTuple):
     altitude_ft: float | None
     """Pressure altitude in ft; None in the surface format."""
     velocity: VelocitySquitter
+    squawk: str | None
+    emergency: EmergencyState
     receiver: str
     t_in_ns: int
 
@@ -60,6 +62,10 @@ class Decoded(NamedTuple):
             ground_speed_kt=self.velocity.ground_speed_kt,
             track_deg=self.velocity.track_deg,
             vertical_rate_fpm=self.velocity.vertical_rate_fpm,
+            squawk=self.squawk,
+            emergency=self.emergency,
+            nic=self.sender.nic,
+            sil=self.sender.sil,
             nacp=self.sender.nacp,
             nacv=self.sender.nacv,
             receiver=self.receiver,
@@ -123,7 +129,7 @@ class Receiver:
             return None
         return Decoded(
             sender, heard.identification, heard.position_deg, squitter.altitude_ft,
-            heard.velocity, self.name, t_in_ns,
+            heard.velocity, sender.squawk, sender.emergency, self.name, t_in_ns,
         )  # fmt: skip
 
     def _decode_position(self, heard: _Heard, position: cpr.CprPosition, t_in_ns: int) -> None:

@@ -19,10 +19,10 @@ MOVEMENT_STEPS_KT = (
 )  # fmt: skip
 """Steps of the surface format's movement field: speed above which they follow, count, size, in kt.
 
-The first code is a standstill, the last one is more than 175 kt (DO-260B, 2.2.3.2.4.2).
+The first code is a standstill, the last one is 175 kt or more (DO-260B, 2.2.3.2.4.2).
 """
 FASTEST_MOVEMENT_KT = 175.0
-"""Speed above which the movement field has one code only, in kt."""
+"""Speed from which on the movement field has one code only, in kt."""
 
 NACP_95_PERCENT_M = (
     37_040.0, 18_520.0, 7_408.0, 3_704.0, 1_852.0, 926.0, 555.6, 185.2, 92.6, 30.0, 10.0, 3.0,
@@ -76,14 +76,20 @@ _MOVEMENTS_KT = tuple(
     for index in range(count)
 )
 """Lower limit and middle of the step of each movement code from 2 to 123, in kt."""
+_SPEEDS_KT = (0.0, *(middle for _, middle in _MOVEMENTS_KT), FASTEST_MOVEMENT_KT)
+"""Speed that each movement code from 1 to 124 tells, in kt."""
+
+
+def movement_code(speed_kt: float) -> int:
+    """Return the code of a speed in the movement field: 1 for a standstill, 124 from 175 kt on."""
+    if speed_kt >= FASTEST_MOVEMENT_KT:
+        return 2 + len(_MOVEMENTS_KT)
+    return 1 + bisect.bisect_left(_MOVEMENTS_KT, (speed_kt,))
 
 
 def movement_kt(speed_kt: float) -> float:
     """Return the speed that the movement field tells: the middle of the step of a speed, in kt.
 
-    It is 0 for a standstill and 175 for all speeds above.
+    It is 0 for a standstill and 175 from that speed on.
     """
-    if speed_kt > FASTEST_MOVEMENT_KT:
-        return FASTEST_MOVEMENT_KT
-    code = bisect.bisect_left(_MOVEMENTS_KT, (speed_kt,))
-    return _MOVEMENTS_KT[code - 1][1] if code else 0.0
+    return _SPEEDS_KT[movement_code(speed_kt) - 1]

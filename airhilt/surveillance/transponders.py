@@ -9,7 +9,7 @@ import numpy as np
 
 from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
 from airhilt.geodesy.wgs84 import displaced
-from airhilt.messages import EmitterCategory
+from airhilt.messages import EmergencyState, EmitterCategory
 from airhilt.surveillance import cpr
 from airhilt.surveillance.squitters import (
     ALTITUDE_STEP_FT,
@@ -58,6 +58,15 @@ POSITION_CORRELATION_S = 60.0
 The error is a first-order Gauss-Markov process, as errors of satellite navigation are. The value is
 an estimate: DO-260B gives none.
 """
+GENERAL_EMERGENCY = "7700"
+"""Mode A code of an emergency (ICAO Annex 10, volume IV, 2.1.4.2.2)."""
+EMERGENCY_CODES: dict[str, EmergencyState] = {
+    "7500": "unlawful_interference",
+    "7600": "no_communications",
+    GENERAL_EMERGENCY: "general",
+}
+"""Emergency or priority status that a transponder sends with a Mode A code (DO-260B,
+2.2.3.2.7.8.1.1)."""
 STANDING_BELOW_M_S = 0.05
 """Speed below which a navigation unit reports a standstill, in m/s."""
 
@@ -94,6 +103,11 @@ class Transponder:
     """Encodes position and velocity with the errors of the carrier's navigation.
 
     The errors are drawn from its generator, by the accuracy categories NACp and NACv.
+
+    Attributes
+    ----------
+    squawk, emergency
+        What it sends now, apart from position and velocity; squawk None: it has no Mode A code.
     """
 
     def __init__(
@@ -104,12 +118,18 @@ class Transponder:
         nacv: int,
         generator: np.random.Generator,
         category: EmitterCategory = "A0",
+        nic: int = 8,
+        sil: int = 3,
     ) -> None:
         self.icao24 = icao24
         self.callsign = callsign
         self.category = category
         self.nacp = nacp
         self.nacv = nacv
+        self.nic = nic
+        self.sil = sil
+        self.squawk: str | None = None
+        self.emergency: EmergencyState = "none"
         self.generator = generator
         self._sigma_m = NACP_95_PERCENT_M[nacp] * SIGMA_PER_95_PERCENT
         self._sigma_m_s = NACV_95_PERCENT_M_S[nacv] * SIGMA_PER_95_PERCENT

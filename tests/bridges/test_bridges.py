@@ -1,4 +1,4 @@
-"""Bridges join a real run to something else."""
+"""Bridges join a run to something else."""
 
 from __future__ import annotations
 
@@ -6,61 +6,292 @@ import runpy
 import socket
 import subprocess
 import sys
-import threading
 import time
-from pathlib import Path
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing, suppress
+from datetime import UTC, datetime, timedelta
+from typing import Any
 
 import pytest
 
-from airhilt import run
-from airhilt.bus import free_endpoint
+from airhilt.bus import Bus, free_endpoint
+from airhilt.bus.bridge import WAITING, Feed, WallClock, datagrams
+from airhilt.errors import BusError
 from airhilt.host import library
-from airhilt.messages import AdsbReport
-from airhilt.scenario import Scenario
+from airhilt.messages import AdsbReport, Clock
+from airhilt.units import SECOND_NS
+
+BRIDGES = sorted(path.name for path in library.folder("bridges").glob("*.py"))
+LONG_S = 120.0
+"""Time that a busy machine may take to start a program."""
+ON_TCP = ("avr.py", "beast.py", "sbs1.py")
+MIDDAY = datetime(2026, 3, 1, 12, 0, 1, 500_000, tzinfo=UTC)
+REPORT = AdsbReport(
+    icao24="a1b2c3", callsign="AAL123", latitude_deg=38.9, longitude_deg=-77.0,
+    altitude_ft=35000.0, ground_speed_kt=450.0, track_deg=90.0, vertical_rate_fpm=-64.0,
+    squawk="1325", nic=8, sil=3, nacp=9, nacv=2, receiver="centre", t_adsb_in_ns=0,
+    t_adsb_out_ns=1_500_000_000,
+)  # fmt: skip
+OTHER = REPORT.model_copy(update={"icao24": "a4d5e6"})
+ON_GROUND = REPORT.model_copy(update={"altitude_ft": None, "on_ground": True})
+
+
+def bridge(name: str) -> dict[str, Any]:
+    """What a bridge defines."""
+    return runpy.run_path(str(library.folder("bridges") / name))
+
+
+def free_port() -> int:
+    return int(free_endpoint().rsplit(":", 1)[1])
 
 
 def test_a_report_becomes_a_basestation_line() -> None:
-    bridge = runpy.run_path(str(library.folder("bridges") / "sbs1.py"))
-    report = AdsbReport(
-        icao24="a1b2c3", callsign="AAL123", latitude_deg=38.9, longitude_deg=-77.0,
-        altitude_ft=35000.0, ground_speed_kt=450.0, track_deg=90.0, vertical_rate_fpm=-64.0,
-        nacp=9, nacv=2, receiver="centre", t_adsb_in_ns=0, t_adsb_out_ns=1_500_000_000,
-    )  # fmt: skip
-    assert bridge["line"](report) == (
-        "MSG,3,1,1,A1B2C3,1,1970/01/01,00:00:01.500,1970/01/01,00:00:01.500,AAL123,35000,450,90,"
-        "38.90000,-77.00000,-64,,0,0,0,0"
+    line = bridge("sbs1.py")["line"]
+    assert line(REPORT, MIDDAY) == (
+        "MSG,3,1,1,A1B2C3,1,2026/03/01,12:00:01.500,2026/03/01,12:00:01.500,AAL123,35000,450,90,"
+        "38.90000,-77.00000,-64,1325,0,0,0,0"
     )
-    on_ground = report.model_copy(update={"altitude_ft": None, "on_ground": True})
-    assert bridge["line"](on_ground) == (
-        "MSG,2,1,1,A1B2C3,1,1970/01/01,00:00:01.500,1970/01/01,00:00:01.500,AAL123,,450,90,"
-        "38.90000,-77.00000,-64,,0,0,0,-1"
+    assert line(ON_GROUND, MIDDAY) == (
+        "MSG,2,1,1,A1B2C3,1,2026/03/01,12:00:01.500,2026/03/01,12:00:01.500,AAL123,,450,90,"
+        "38.90000,-77.00000,-64,1325,0,0,0,-1"
     )
 
 
-def test_a_client_of_the_feed_hears_both_aircraft(encounter: Scenario, tmp_path: Path) -> None:
-    endpoint = free_endpoint()
-    port = int(free_endpoint().rsplit(":", 1)[1])
-    heard: list[str] = []
+def test_an_emergency_sets_the_flags_of_a_basestation_line() -> None:
+    report = REPORT.model_copy(update={"squawk": "7700", "emergency": "general"})
+    assert bridge("sbs1.py")["line"](report, MIDDAY).endswith(",7700,-1,-1,0,0")
 
-    def listen() -> None:
-        bridge = subprocess.Popen(
-            [sys.executable, library.folder("bridges") / "sbs1.py",
-             "--connect", endpoint, "--port", str(port)],
+
+def test_a_basestation_line_has_no_minus_zero_and_no_360_degrees() -> None:
+    report = REPORT.model_copy(
+        update={"track_deg": 359.7, "vertical_rate_fpm": -0.1, "latitude_deg": -1e-7}
+    )
+    fields = bridge("sbs1.py")["line"](report, MIDDAY).split(",")
+    assert (fields[13], fields[14], fields[16]) == ("0", "0.00000", "0")
+
+
+def test_the_first_time_of_a_run_is_now_and_the_others_follow_it() -> None:
+    times, before = WallClock(), datetime.now(UTC)
+    first = times.at(7 * SECOND_NS)
+    assert before <= first <= datetime.now(UTC)
+    assert (times.at(10 * SECOND_NS) - first).total_seconds() == 3.0
+
+
+def test_a_beast_packet_doubles_the_escape_in_all_that_follows_the_type() -> None:
+    frame = bytes.fromhex("8d1a1a402c1a0000000000000000"[:28])
+    packet = bridge("beast.py")["packet"](frame, 1_000_000_000)
+    assert packet[:2] == b"\x1a3"
+    content = packet[2:].replace(b"\x1a\x1a", b"\x1a")
+    assert int.from_bytes(content[:6]) == 12_000_000
+    assert content[7:] == frame
+    assert packet.count(b"\x1a") == 1 + 2 * content.count(b"\x1a")
+
+
+def test_a_frame_becomes_a_line_of_avr() -> None:
+    assert bridge("avr.py")["line"](bytes.fromhex("5da1b2c306b148")) == "*5DA1B2C306B148;"
+
+
+class TestGdl90:
+    """The examples are those of the GDL 90 Data Interface Specification, revision A."""
+
+    def test_the_heartbeat_of_the_specification_is_framed_as_there(self) -> None:
+        framed = bridge("gdl90.py")["framed"]
+        assert framed(bytes.fromhex("0081 41db d008 02")).hex() == "7e008141dbd00802b38b7e"
+
+    def test_the_traffic_report_of_the_specification_comes_out_byte_for_byte(self) -> None:
+        report = AdsbReport(
+            icao24="ab4549", callsign="N825V", emitter_category="A1", latitude_deg=44.90708,
+            longitude_deg=-122.99488, altitude_ft=5000.0, ground_speed_kt=123.0, track_deg=45.0,
+            vertical_rate_fpm=64.0, nic=10, nacp=9, nacv=2, receiver="centre", t_adsb_in_ns=0,
+            t_adsb_out_ns=0,
         )  # fmt: skip
-        deadline = time.monotonic() + 20.0
-        while time.monotonic() < deadline:
-            try:
-                with socket.create_connection(("127.0.0.1", port)) as client:
-                    heard.extend(client.makefile().readlines())
-                    break
-            except OSError:
-                time.sleep(0.05)
-        assert bridge.wait(timeout=20.0) == 0
+        assert bridge("gdl90.py")["report_message"](20, report).hex() == (
+            "1400ab45491fef15a889780f09a907b00120014e3832355620202000"
+        )
 
-    listener = threading.Thread(target=listen)
-    listener.start()
-    short = encounter.model_copy(update={"duration_s": 8.0})
-    run(short, out=tmp_path / "run", endpoint=endpoint, pace="realtime", assistant="none")
-    listener.join(timeout=30.0)
-    assert {line.split(",")[4] for line in heard} == {"A1B2C3", "A4D5E6"}
-    assert heard[-1].split(",")[11] == pytest.approx("35000")
+    def test_flags_and_escapes_inside_a_message_are_stuffed(self) -> None:
+        framed = bridge("gdl90.py")["framed"](bytes([0, 0x7E, 0x7D]))
+        assert framed[:6] == bytes([0x7E, 0, 0x7D, 0x5E, 0x7D, 0x5D])
+        assert framed[1:-1].count(0x7E) == 0
+
+    def test_a_second_has_a_heartbeat_the_own_aircraft_and_the_others_heard_in_it(self) -> None:
+        traffic = bridge("gdl90.py")["Traffic"]("a1b2c3")
+        for report in (REPORT, OTHER, OTHER):
+            traffic.hear(report)
+        first, second = (
+            [(message[0], message[2:5].hex()) for message in traffic.messages(MIDDAY)][1:]
+            for _ in range(2)
+        )
+        assert first == [(10, "a1b2c3"), (20, "a4d5e6")]
+        assert second == [(10, "a1b2c3")]
+
+
+class TestFeed:
+    @pytest.fixture
+    def port(self) -> int:
+        return free_port()
+
+    @pytest.fixture
+    def feed(self, port: int) -> Iterator[Feed]:
+        feed = Feed()
+        feed.listen(port)
+        yield feed
+        feed.close()
+
+    def test_a_client_that_never_reads_is_let_go_and_the_others_hear_on(
+        self, feed: Feed, port: int
+    ) -> None:
+        with socket.create_connection(("127.0.0.1", port)):
+            wait_until(lambda: fed(feed) == 1)
+            while fed(feed):
+                feed.send(bytes(100_000))
+            with socket.create_connection(("127.0.0.1", port)) as reading:
+                wait_until(lambda: fed(feed) == 1)
+                feed.send(b"heard\n")
+                assert reading.recv(6) == b"heard\n"
+
+    def test_a_client_that_never_reads_does_not_hold_up_the_end(
+        self, feed: Feed, port: int
+    ) -> None:
+        with socket.create_connection(("127.0.0.1", port)):
+            wait_until(lambda: fed(feed) == 1)
+            for _ in range(WAITING // 2):
+                feed.send(bytes(100_000))
+            feed.close()
+
+    def test_a_program_that_listens_itself_is_connected_to_again_after_it_went(self) -> None:
+        feed = Feed()
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            feed.connect(f"127.0.0.1:{server.getsockname()[1]}")
+            for _ in range(2):
+                connection, _ = server.accept()
+                wait_until(lambda: fed(feed) == 1)
+                feed.send(b"heard\n")
+                assert connection.recv(6) == b"heard\n"
+                connection.close()
+                while fed(feed):
+                    feed.send(b"lost\n")
+                    time.sleep(0.01)
+
+    def test_what_is_no_address_is_refused(self) -> None:
+        with pytest.raises(BusError, match="expected HOST:PORT"):
+            Feed().connect("30004")
+
+    def test_datagrams_for_a_host_that_cannot_be_are_refused(self) -> None:
+        with pytest.raises(BusError, match="--to"):
+            datagrams("no such host", 4000)
+
+
+def fed(feed: Feed) -> int:
+    """Number of clients of a feed."""
+    return len(feed.clients)
+
+
+def wait_until(is_true: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + LONG_S
+    while not is_true():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize("name", ON_TCP)
+def test_a_port_that_is_taken_is_one_line_and_exit_code_2(name: str) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        done = subprocess.run(
+            command(name, free_endpoint(), port), capture_output=True, text=True, timeout=LONG_S
+        )
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert f"127.0.0.1:{port}" in line
+    assert "--port" in line
+
+
+def command(name: str, endpoint: str, port: int) -> list[str]:
+    """Return the command that starts a bridge."""
+    program = str(library.folder("bridges") / name)
+    return [sys.executable, program, "--connect", endpoint, "--port", str(port)]
+
+
+@pytest.fixture(scope="module")
+def received() -> dict[str, bytes]:
+    """What each bridge gave out of a run of two aircraft, while a client of it hung; by name."""
+    with ExitStack() as stack:
+        bus = stack.enter_context(closing(Bus("run")))
+        ports = {name: free_port() for name in BRIDGES}
+        clients = {}
+        for name in set(BRIDGES) - set(ON_TCP):
+            clients[name] = stack.enter_context(socket.socket(type=socket.SOCK_DGRAM))
+            clients[name].bind(("127.0.0.1", ports[name]))
+        programs = [subprocess.Popen(command(name, bus.endpoint, ports[name])) for name in BRIDGES]
+        for name in ON_TCP:
+            stack.enter_context(connected(ports[name]))
+            clients[name] = stack.enter_context(connected(ports[name]))
+        heard = dict.fromkeys(BRIDGES, b"")
+
+        def is_heard_everywhere() -> bool:
+            for report in (REPORT, OTHER):
+                bus.put(f"adsb/{report.icao24}", report.model_dump_json().encode())
+            for name, client in clients.items():
+                heard[name] += b"".join(pieces(client))
+            return all(is_of_both(data) for data in heard.values())
+
+        wait_until(is_heard_everywhere)
+        bus.put("clock", Clock(run="run", phase="finished", pace="1x").model_dump_json().encode())
+        assert {program.wait(timeout=LONG_S) for program in programs} == {0}
+        return heard
+
+
+def test_a_bridge_ends_with_a_run_that_goes_without_a_word() -> None:
+    port = free_port()
+    with closing(Bus("run")) as bus:
+        program = subprocess.Popen(command("sbs1.py", bus.endpoint, port))
+        with connected(port) as client:
+
+            def is_heard() -> bool:
+                bus.put("adsb/a1b2c3", REPORT.model_dump_json().encode())
+                return bool(list(pieces(client)))
+
+            wait_until(is_heard)
+    assert program.wait(timeout=LONG_S) == 0
+
+
+def is_of_both(data: bytes) -> bool:
+    """Return whether both aircraft are in what a bridge gave out, as text or as bytes."""
+    return all(
+        report.icao24.upper().encode() in data or bytes.fromhex(report.icao24) in data
+        for report in (REPORT, OTHER)
+    )
+
+
+def connected(port: int) -> socket.socket:
+    """Return a connection with a bridge as soon as it listens."""
+    connections: list[socket.socket] = []
+
+    def is_connected() -> bool:
+        with suppress(OSError):
+            connections.append(socket.create_connection(("127.0.0.1", port)))
+        return bool(connections)
+
+    wait_until(is_connected)
+    return connections[0]
+
+
+def pieces(client: socket.socket) -> Iterator[bytes]:
+    """Yield what has come for a client."""
+    client.setblocking(False)
+    with suppress(BlockingIOError):
+        while piece := client.recv(100_000):
+            yield piece
+
+
+def test_every_bridge_gives_out_both_aircraft_and_ends_with_the_run(
+    received: dict[str, bytes],
+) -> None:
+    assert {name for name, data in received.items() if is_of_both(data)} == set(BRIDGES)
+
+
+def test_the_lines_of_a_run_are_of_today(received: dict[str, bytes]) -> None:
+    lines = [line.split(",") for line in received["sbs1.py"].decode().splitlines()]
+    today, yesterday = (datetime.now(UTC) - timedelta(days=days) for days in (0, 1))
+    assert lines[-1][6] in {f"{day:%Y/%m/%d}" for day in (today, yesterday)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import statistics
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -135,6 +136,22 @@ def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_b
     heard = [r for r in reports if not 8.0 <= r.t_adsb_in_ns / SECOND_NS < 9.0]
     assert heard == [r for r in without if not 5.5 <= r.t_adsb_in_ns / SECOND_NS < 9.0]
     assert len(heard) > 30
+
+
+def test_a_report_has_the_squawk_and_the_status_of_the_instant_of_its_squitter() -> None:
+    run = Run(seconds=10.0)
+    actor: Any = run.sensor.sources[0].actor
+    before = actor.squawk
+
+    def declare() -> None:
+        run.sensor.sources[0].actor = replace(actor, squawks="7700", emergency="general")
+
+    run.director.at(5 * SECOND_NS, declare, Priority.PHYSICS)
+    for report in run.go().of(actor.spec.icao24):
+        is_before = report.t_adsb_in_ns < 5 * SECOND_NS
+        assert report.squawk == (before if is_before else "7700")
+        assert report.emergency == ("none" if is_before else "general")
+        assert (report.nic, report.sil) == (8, 3)
 
 
 @pytest.mark.parametrize(("loss", "least", "most"), [(0.3, 0.63, 0.77), (1.0, 0.0, 0.0)])

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from airhilt.scenario import Scenario
+from airhilt.scenario.models import AircraftSpec
 from airhilt.sensors.base import Publish, Sensor, SensorContext, SensorType
 from airhilt.shapes.sizes import Dimensions
 from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.surveillance.radar import discrete_code
 from airhilt.units import SECOND_NS
 from airhilt.world.site import ScenarioSite
 
@@ -33,6 +35,18 @@ class Acting:
     spec: Any
     body: Body
     emitter_category: str = "A3"
+    emergency: str = "none"
+    squawks: str | None = None
+    """Code that it has set; None: that of the scenario."""
+
+    @property
+    def squawk(self) -> str | None:
+        """The code of an aircraft with a transponder; the others answer no radar."""
+        if self.squawks is not None:
+            return self.squawks
+        if not (isinstance(self.spec, AircraftSpec) and self.spec.transponder.equipped):
+            return None
+        return self.spec.transponder.squawk or discrete_code(self.spec.icao24)
 
 
 def sense(

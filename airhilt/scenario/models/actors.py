@@ -8,7 +8,7 @@ from pydantic import Field
 
 from airhilt.commands import AircraftCommand, Command
 from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
-from airhilt.messages import TransponderMode
+from airhilt.messages import EmergencyState, TransponderMode
 from airhilt.quantities import AltitudeFt, Count, FileName, Flag, Name, Number, Share
 from airhilt.scenario.models.base import MOST_COMMANDS, Callsign, Model
 from airhilt.scenario.models.conditions import Condition
@@ -86,10 +86,18 @@ class Transponder(Model):
     )
     nacp: Count = Field(default=9, ge=0, le=11, description="ADS-B accuracy category for position")
     nacv: Count = Field(default=2, ge=0, le=4, description="ADS-B accuracy category for velocity")
+    nic: Count = Field(default=8, ge=0, le=11, description="ADS-B integrity category of positions")
+    sil: Count = Field(default=3, ge=0, le=3, description="ADS-B source integrity level")
     squawk: str | None = Field(
         default=None,
         pattern=r"^[0-7]{4}$",
-        description="Mode A code, octal; null: a discrete code made from the icao24",
+        description="Mode A code, octal; null: a discrete code made from the icao24; "
+        "a crew that begins a drift-down or an emergency descent sets 7700",
+    )
+    emergency: EmergencyState | None = Field(
+        default=None,
+        description="ADS-B emergency or priority status; null: what the squawk says, if it is "
+        "7500, 7600 or 7700",
     )
 
     @property

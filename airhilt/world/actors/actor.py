@@ -9,7 +9,7 @@ from typing import Literal, Protocol
 
 from airhilt.commands import Command
 from airhilt.errors import ScenarioError
-from airhilt.messages import Advisory, EmitterCategory, Recommendation
+from airhilt.messages import Advisory, EmergencyState, EmitterCategory, Recommendation
 from airhilt.scenario.models import ActorSpec, Channel
 from airhilt.world.mover import Mover
 
@@ -87,6 +87,14 @@ class Actor(Protocol):
     @property
     def emitter_category(self) -> EmitterCategory:
         """ADS-B emitter category that its transponder sends."""
+
+    @property
+    def squawk(self) -> str | None:
+        """Mode A code that its transponder sends now; None without one that answers radars."""
+
+    @property
+    def emergency(self) -> EmergencyState:
+        """ADS-B emergency or priority status that its transponder sends now."""
 
     def mesh(self, t_s: float) -> str:
         """Return the name of the mesh that it shows at a time in seconds."""

@@ -36,6 +36,7 @@ from airhilt.messages import (
     Advisory,
     CancelTakeoff,
     Climb,
+    EmergencyState,
     EmitterCategory,
     GoAround,
     HoldPosition,
@@ -44,6 +45,8 @@ from airhilt.messages import (
     Turn,
 )
 from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
+from airhilt.surveillance.radar import discrete_code
+from airhilt.surveillance.transponders import EMERGENCY_CODES, GENERAL_EMERGENCY
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
 from airhilt.world.actors.actor import (
     Act,
@@ -152,6 +155,7 @@ class Crew:
         self._over: set[str] = set()
         self._deferred: list[Command] = []
         self._has_turned = False
+        self._is_in_distress = False
         self._has_route = False
 
     @property
@@ -163,6 +167,21 @@ class Crew:
     def emitter_category(self) -> EmitterCategory:
         """ADS-B emitter category that its transponder sends."""
         return EMITTER_CATEGORIES[self.body.kind.category]
+
+    @property
+    def squawk(self) -> str | None:
+        """Mode A code that its transponder sends now; None without one."""
+        if not self.spec.transponder.equipped:
+            return None
+        if self._is_in_distress:
+            return GENERAL_EMERGENCY
+        return self.spec.transponder.squawk or discrete_code(self.spec.icao24)
+
+    @property
+    def emergency(self) -> EmergencyState:
+        """ADS-B emergency or priority status that its transponder sends now."""
+        declared = self.spec.transponder.emergency
+        return declared or EMERGENCY_CODES.get(self.squawk or "", "none")
 
     def mesh(self, t_s: float) -> str:  # noqa: ARG002
         """Return the name of the mesh of its aircraft: with the gear down near the ground."""
@@ -278,8 +297,10 @@ class Crew:
                 self._return_lateral = aircraft.en_route.resume_route
             case DriftDownCommand():
                 aircraft.procedures.drift_down()
+                self._is_in_distress = True
             case EmergencyDescentCommand(altitude_ft=altitude):
                 aircraft.procedures.emergency_descent(altitude * FOOT)
+                self._is_in_distress = True
 
     # --- advisories -------------------------------------------------------------------------
 

@@ -17,7 +17,7 @@ from airhilt.commands import (
 )
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.relative_motion import horizontal_distance_m
-from airhilt.messages import Advisory, EmitterCategory, HoldPosition, Recommendation
+from airhilt.messages import Advisory, EmergencyState, EmitterCategory, HoldPosition, Recommendation
 from airhilt.scenario.models import Channel, VehicleSpec, WildlifeSpec
 from airhilt.world.actors.actor import Act, Actor, Reaction, Unable, refusal_by, saying_unable
 from airhilt.world.actors.behind import BehindTraffic
@@ -42,6 +42,8 @@ class _SurfaceActor(Generic[B]):
 
     bound_runway = None
     """None: it uses a runway only to cross it or to work on it."""
+    squawk = None
+    """None: it does not answer radars."""
 
     @property
     def emitter_category(self) -> EmitterCategory:
@@ -62,6 +64,11 @@ class Driver(_SurfaceActor[Driven]):
     actors: Mapping[str, Actor]
     """All actors of the scenario by callsign, itself among them."""
     category: Literal["vehicle"] = "vehicle"
+
+    @property
+    def emergency(self) -> EmergencyState:
+        """ADS-B emergency or priority status that its transponder sends."""
+        return self.spec.transponder.emergency or "none"
 
     @cached_property
     def _traffic(self) -> Traffic:
@@ -147,6 +154,8 @@ class Animal(_SurfaceActor[Creature]):
     others: Mapping[str, Actor]
     """All actors of the scenario, itself among them."""
     category: Literal["wildlife"] = "wildlife"
+    emergency: Literal["none"] = "none"
+    """It has no transponder."""
 
     def refusal(self, command: Command) -> str | None:
         """Return why an animal cannot carry out a command; None if animals do such a thing."""

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from airhilt.commands import (
     AltitudeCommand,
+    DriftDownCommand,
     EmergencyDescentCommand,
     GoAroundCommand,
     SpeedCommand,
@@ -18,7 +19,7 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.positions import GeodeticPosition
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
-from airhilt.scenario.models import AircraftSpec, Channels, Reactions, Responses
+from airhilt.scenario.models import AircraftSpec, Channels, Reactions, Responses, Transponder
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
@@ -58,10 +59,13 @@ def crew_of(
     median_s: float = 5.0,
     sigma: float = 0.0,
     seed: int = 1,
+    **transponder: Any,
 ) -> Crew:
     reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL123", pilot=reactions)
+    spec = cast(Any, AircraftSpec).model_construct(
+        callsign="AAL123", icao24="a1b2c3", pilot=reactions, transponder=Transponder(**transponder)
+    )
     return Crew(spec, aircraft, ScenarioSite(centre, 0.0), seed)
 
 
@@ -125,6 +129,38 @@ def test_a_crew_without_cabin_pressure_does_not_level_off_on_its_way_down() -> N
     assert level_ft(aircraft) == pytest.approx(3_000)
     crew.hear(advisory(MaintainLevel(altitude_ft=2_800), name="s-2")).act()
     assert level_ft(aircraft) == pytest.approx(2_800)
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        EmergencyDescentCommand(action="emergency_descent", altitude_ft=3_000),
+        DriftDownCommand(action="drift_down"),
+    ],
+)
+def test_a_crew_sets_7700_when_its_emergency_begins(
+    command: EmergencyDescentCommand | DriftDownCommand,
+) -> None:
+    crew = crew_of(airborne(), squawk="1325")
+    assert (crew.squawk, crew.emergency) == ("1325", "none")
+    crew.command(command)
+    assert (crew.squawk, crew.emergency) == ("7700", "general")
+
+
+@pytest.mark.parametrize(
+    ("transponder", "squawk", "emergency"),
+    [
+        ({"squawk": "7600"}, "7600", "no_communications"),
+        ({"squawk": "7500"}, "7500", "unlawful_interference"),
+        ({"squawk": "1325", "emergency": "minimum_fuel"}, "1325", "minimum_fuel"),
+        ({"equipped": False}, None, "none"),
+    ],
+)
+def test_a_squawk_has_a_meaning_unless_the_scenario_gives_another_status(
+    transponder: dict[str, Any], squawk: str | None, emergency: str
+) -> None:
+    crew = crew_of(airborne(), **transponder)
+    assert (crew.squawk, crew.emergency) == (squawk, emergency)
 
 
 @pytest.mark.parametrize("severity", ["INFO", "ADVISORY"])

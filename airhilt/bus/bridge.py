@@ -1,0 +1,265 @@
+"""Common part of bridges: their options, the messages of the run, and a feed over TCP."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import queue
+import socket
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import NamedTuple
+
+import zenoh
+
+from airhilt.bus.session import ROOT, close_session, connect_client
+from airhilt.errors import BusError
+from airhilt.messages import AdsbReport, Clock
+from airhilt.units import SECOND_NS
+
+PATIENCE_S = 30.0
+"""Time for which a bridge waits for its run, in s."""
+WAITING = 1000
+"""Greatest number of pieces that wait for one client; one that falls further behind is let go."""
+LAST_S = 1.0
+"""Time that clients have at the end of a run to take what waits for them, in s."""
+RETRY_S = 1.0
+"""Time between two attempts to connect to a program, in s."""
+
+
+def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
+    """Return a parser of the options that all bridges have.
+
+    Parameters
+    ----------
+    documentation
+        Docstring of the bridge.
+    port
+        Default of the option ``--port``.
+    """
+    parser = argparse.ArgumentParser(
+        description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--connect", help="the run's endpoint, if not that of the keys")
+    parser.add_argument("--tls", type=Path, help="folder with observer.json of `airhilt keys init`")
+    parser.add_argument("--port", type=int, default=port, help=f"default: {port}")
+    return parser
+
+
+def relay(given: argparse.Namespace, heard: Mapping[str, Callable[[bytes], None]]) -> None:
+    """Call functions with the messages of a run until the run is over.
+
+    Parameters
+    ----------
+    given
+        What the parser of `options` returned.
+    heard
+        Called with each message, by the pattern of its key below the run, such as ``adsb/*``; on a
+        thread of Zenoh.
+
+    Raises
+    ------
+    BusError
+        There is no run at the endpoint, or it does not let this program in.
+    """
+    session = connect_client(given.connect, PATIENCE_S, given.tls, "observer")
+    is_over = threading.Event()
+
+    def hear_clock(sample: zenoh.Sample) -> None:
+        clock = Clock.model_validate_json(sample.payload.to_bytes())
+        if clock.phase in ("finished", "stopped"):
+            is_over.set()
+
+    def hear_presence(sample: zenoh.Sample) -> None:
+        if sample.kind == zenoh.SampleKind.DELETE:
+            is_over.set()
+
+    def forward(call: Callable[[bytes], None]) -> Callable[[zenoh.Sample], None]:
+        return lambda sample: call(sample.payload.to_bytes())
+
+    subscribers = [
+        session.declare_subscriber(f"{ROOT}/*/{key}", forward(call)) for key, call in heard.items()
+    ]
+    subscribers.append(session.declare_subscriber(f"{ROOT}/*/clock", hear_clock))
+    subscribers.append(session.liveliness().declare_subscriber(f"{ROOT}/*/run", hear_presence))
+    with contextlib.suppress(KeyboardInterrupt):
+        is_over.wait()
+    for subscriber in subscribers:
+        subscriber.undeclare()  # type: ignore[no-untyped-call]
+    close_session(session)
+
+
+@contextlib.contextmanager
+def exiting_on_error() -> Iterator[None]:
+    """Print a `BusError` as one line and exit with its code."""
+    try:
+        yield
+    except BusError as error:
+        sys.stderr.write(f"error: {error}\n")
+        sys.exit(error.exit_code)
+
+
+def serve_reports(
+    documentation: str | None, port: int, encode: Callable[[AdsbReport], bytes]
+) -> None:
+    """Run a bridge that gives out the ADS-B reports of a run over TCP until the run is over.
+
+    Parameters
+    ----------
+    documentation
+        Docstring of the bridge.
+    port
+        Default of the port on which it listens.
+    encode
+        Returns what a report becomes.
+    """
+    parser = options(documentation, port)
+    parser.add_argument(
+        "--to", metavar="HOST:PORT", help="connect to a program that listens there, and not listen"
+    )
+    given = parser.parse_args()
+    with exiting_on_error():
+        feed = Feed()
+        if given.to is None:
+            feed.listen(given.port)
+        else:
+            feed.connect(given.to)
+        relay(
+            given,
+            {"adsb/*": lambda data: feed.send(encode(AdsbReport.model_validate_json(data)))},
+        )
+        feed.close()
+
+
+def datagrams(host: str, port: int) -> Callable[[bytes], None]:
+    """Return what sends UDP datagrams to a host, or to all hosts at a broadcast address.
+
+    Nobody has to listen there: what cannot be sent is lost.
+
+    Raises
+    ------
+    BusError
+        There is no such host or port.
+    """
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_DGRAM)[
+            0
+        ]
+    except (OSError, OverflowError) as error:
+        raise BusError(f"cannot send to {host}:{port}: {error}; see --to and --port") from None
+    sender = socket.socket(family, kind, protocol)
+    sender.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
+    sender.setblocking(False)
+
+    def send(data: bytes) -> None:
+        with contextlib.suppress(OSError):
+            sender.sendto(data, address)
+
+    return send
+
+
+class WallClock:
+    """Gives times of a run as times of day, as if the first of them were now."""
+
+    def __init__(self) -> None:
+        self._epoch: datetime | None = None
+
+    def at(self, t_ns: int) -> datetime:
+        """Return a time of the run, in ns, as a time of day in UTC."""
+        if self._epoch is None:
+            self._epoch = datetime.now(UTC) - timedelta(seconds=t_ns / SECOND_NS)
+        return self._epoch + timedelta(seconds=t_ns / SECOND_NS)
+
+
+class Client(NamedTuple):
+    """A connected program, and what waits for it; None is the end."""
+
+    connection: socket.socket
+    waiting: queue.Queue[bytes | None]
+    thread: threading.Thread
+
+
+class Feed:
+    """Sends bytes to every connected program; one that falls behind is let go.
+
+    Attributes
+    ----------
+    clients
+        The connected programs.
+    """
+
+    def __init__(self) -> None:
+        self.clients: list[Client] = []
+
+    def listen(self, port: int) -> None:
+        """Accept programs on a port of the loopback address; raise `BusError` if it is taken."""
+        try:
+            server = socket.create_server(("127.0.0.1", port))
+        except (OSError, OverflowError) as error:
+            raise BusError(
+                f"cannot listen on 127.0.0.1:{port}: {error}; choose another port with --port"
+            ) from None
+        threading.Thread(target=self._accept, args=(server,), daemon=True).start()
+
+    def connect(self, address: str) -> None:
+        """Connect to a program that listens at ``HOST:PORT``, again whenever it goes."""
+        host, _, port = address.rpartition(":")
+        if not (host and port.isdecimal()):
+            raise BusError(f"--to {address!r}: expected HOST:PORT, such as 127.0.0.1:30004")
+        target = (host, int(port))
+        threading.Thread(target=self._keep_connected, args=(target,), daemon=True).start()
+
+    def send(self, data: bytes) -> None:
+        """Queue bytes for all clients."""
+        for client in list(self.clients):
+            try:
+                client.waiting.put_nowait(data)
+            except queue.Full:
+                self._let_go(client)
+
+    def close(self) -> None:
+        """Let clients take what waits for them, for a moment, and disconnect them."""
+        deadline = time.monotonic() + LAST_S
+        clients = list(self.clients)
+        for client in clients:
+            with contextlib.suppress(queue.Full):
+                client.waiting.put_nowait(None)
+        for client in clients:
+            client.thread.join(max(deadline - time.monotonic(), 0.0))
+
+    def _accept(self, server: socket.socket) -> None:
+        with contextlib.suppress(OSError):
+            while True:
+                self._admit(server.accept()[0])
+
+    def _keep_connected(self, target: tuple[str, int]) -> None:
+        while True:
+            with contextlib.suppress(OSError):
+                self._admit(socket.create_connection(target)).join()
+            time.sleep(RETRY_S)
+
+    def _admit(self, connection: socket.socket) -> threading.Thread:
+        """Serve a client on a thread of its own."""
+        waiting: queue.Queue[bytes | None] = queue.Queue(WAITING)
+        thread = threading.Thread(target=lambda: self._serve(client), daemon=True)
+        client = Client(connection, waiting, thread)
+        self.clients.append(client)
+        thread.start()
+        return thread
+
+    def _serve(self, client: Client) -> None:
+        with contextlib.suppress(OSError), client.connection:
+            while (data := client.waiting.get()) is not None:
+                client.connection.sendall(data)
+        self._let_go(client)
+
+    def _let_go(self, client: Client) -> None:
+        """Forget a client, and end whatever still sends to it."""
+        with contextlib.suppress(OSError):
+            client.connection.shutdown(socket.SHUT_RDWR)
+        with contextlib.suppress(ValueError):
+            self.clients.remove(client)

@@ -1,0 +1,155 @@
+"""What bridges give out is read back by programs of others: pyModeS and asterix-decoder."""
+
+from __future__ import annotations
+
+import math
+import runpy
+from importlib.util import find_spec
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from airhilt.host import library
+from airhilt.messages import EMERGENCY_STATES, AdsbReport, RadarPlot
+from airhilt.surveillance import cpr
+from airhilt.surveillance.mode_s_frames import FrameSource
+from airhilt.units import KNOT, NAUTICAL_MILE
+from reports import reports
+
+pytestmark = pytest.mark.decoders
+METRES_PER_DEGREE = 60.0 * NAUTICAL_MILE
+
+
+def steps_deg(report: AdsbReport) -> tuple[float, float]:
+    """Return half a step of latitude and of longitude in the coarser of the two CPR formats."""
+    span_deg = 90.0 if report.on_ground else 360.0
+    zones = max(cpr.longitude_zones(min(abs(report.latitude_deg) + 1e-4, 90.0)) - 1, 1)
+    return 0.5 * span_deg / 59.0 / cpr.BITS, 0.5 * span_deg / zones / cpr.BITS
+
+
+@pytest.mark.skipif(
+    find_spec("pyModeS") is None, reason="no pyModeS: pip install airhilt[decoders]"
+)
+class TestWithPyModeS:
+    @settings(max_examples=500, deadline=None)
+    @given(reports())
+    def test_every_frame_is_read_back_as_the_report_has_it(self, report: AdsbReport) -> None:
+        source = FrameSource()
+        # Both the even and the odd format.
+        frames = [*source.frames(report), *source.frames(report)]
+        for frame in frames:
+            self.check(report, frame)
+
+    def check(self, report: AdsbReport, frame: bytes) -> None:
+        import pyModeS
+
+        place = (report.latitude_deg, report.longitude_deg)
+        read = pyModeS.decode(frame.hex(), reference=place, surface_ref=place)
+        assert read["icao"].lower() == report.icao24
+        assert read.get("crc_valid") is not False
+        said = {
+            "altitude": report.altitude_ft,
+            "squawk": report.squawk,
+            "callsign": report.callsign,
+            "vertical_rate": report.vertical_rate_fpm,
+            "nac_v": report.nacv,
+            "nac_p": report.nacp,
+            "sil": report.sil,
+            "category": int((report.emitter_category or "A0")[1]),
+        }
+        assert {key: read[key] for key in said.keys() & read.keys()} == {
+            key: said[key] for key in said.keys() & read.keys()
+        }
+        if "emergency_state" in read:
+            assert EMERGENCY_STATES[read["emergency_state"]] == report.emergency
+        if "latitude" in read:
+            north, east = steps_deg(report)
+            assert abs(read["latitude"] - report.latitude_deg) <= north * 1.01
+            turned = (read["longitude"] - report.longitude_deg + 180.0) % 360.0 - 180.0
+            assert abs(turned) <= east * 1.01
+        if "groundspeed" in read and not report.on_ground:
+            assert abs(read["groundspeed"] - report.ground_speed_kt) < 1.0
+        if read.get("track") is not None and report.ground_speed_kt:
+            assert math.cos(math.radians(read["track"] - report.track_deg)) > 0.999_999
+
+
+@pytest.mark.skipif(
+    find_spec("asterix") is None, reason="no asterix-decoder: pip install airhilt[decoders]"
+)
+class TestWithAsterixDecoder:
+    @settings(max_examples=200, deadline=None)
+    @given(reports())
+    def test_reports_are_read_back_in_categories_021_and_062(self, report: AdsbReport) -> None:
+        adsb, track = (parsed(block) for block in asterix()["Blocks"]().of_report(report))
+        assert (adsb["category"], track["category"]) == (21, 62)
+        assert adsb["I080"]["TAddr"].lower() == report.icao24
+        assert track["I380"]["ADR"]["ADR"].lower() == report.icao24
+        for item in (adsb["I070"], track["I060"]):
+            assert item["Mode3A"] == report.squawk
+        for item in (adsb["I170"], track["I245"]):
+            assert item["TId"].rstrip() == report.callsign
+        for item, step_deg in ((adsb["I131"], 1.7e-7), (track["I105"], 5.4e-6)):
+            assert item["Lat"] == pytest.approx(report.latitude_deg, abs=step_deg)
+            assert item["Lon"] == pytest.approx(report.longitude_deg, abs=step_deg)
+        assert EMERGENCY_STATES[adsb["I200"]["PS"]] == report.emergency
+        assert EMERGENCY_STATES[track["I380"]["SAB"]["STAT"]] == report.emergency
+        assert bool(adsb["I040"]["GBS"]) == bool(track["I380"]["SAB"]["GBS"]) == report.on_ground
+        assert (adsb["I040"]["SIM"], track["I080"]["SIM"]) == (1, 1)
+        quality = adsb["I090"]
+        assert (
+            quality["NUCp_or_NIC"], quality["SIL"], quality["NACp"], quality["NUCr_or_NACv"]
+        ) == (report.nic, report.sil, report.nacp, report.nacv)  # fmt: skip
+        assert adsb["I160"]["GS"] * 3600.0 == pytest.approx(report.ground_speed_kt, abs=0.12)
+        assert adsb["I160"]["TA"] == pytest.approx(report.track_deg, abs=0.006)
+        speed_m_s = math.hypot(track["I185"]["Vx"], track["I185"]["Vy"])
+        assert speed_m_s == pytest.approx(report.ground_speed_kt * KNOT, abs=0.2)
+        if report.altitude_ft is not None:
+            assert adsb["I145"]["FL"] * 100.0 == track["I136"]["MFL"] == report.altitude_ft
+            assert adsb["I155"]["BVR"] == pytest.approx(report.vertical_rate_fpm, abs=3.2)
+            assert track["I220"]["RoC"] == pytest.approx(report.vertical_rate_fpm, abs=3.2)
+
+    @given(
+        st.floats(0.0, 460_000.0),
+        st.floats(0.0, 359.99),
+        st.from_regex(r"[0-7]{4}", fullmatch=True),
+        st.integers(-10, 600),
+    )
+    def test_a_plot_is_read_back_in_category_048(
+        self, range_m: float, azimuth_deg: float, squawk: str, level: int
+    ) -> None:
+        plot = RadarPlot(
+            site="tower", kind="combined", t_plot_ns=0, range_m=range_m,
+            azimuth_deg=azimuth_deg, mode_a=squawk, mode_c_ft=100 * level,
+        )  # fmt: skip
+        (block,) = asterix()["Blocks"]().of_plot(plot)
+        read = parsed(block)
+        assert read["category"] == 48
+        assert read["I020"]["TYP"] == 3
+        assert read["I040"]["RHO"] == pytest.approx(range_m / NAUTICAL_MILE, abs=1 / 512)
+        turned = (read["I040"]["THETA"] - azimuth_deg + 180.0) % 360.0 - 180.0
+        assert abs(turned) <= 180.0 / 2**16
+        assert read["I070"]["Mode3A"] == squawk
+        assert read["I090"]["FL"] == level
+
+
+def asterix() -> dict[str, Any]:
+    """What the bridge defines."""
+    return runpy.run_path(str(library.folder("bridges") / "asterix.py"))
+
+
+def parsed(block: bytes) -> dict[str, Any]:
+    """Return the only record of a data block, its items as plain values."""
+    import asterix
+
+    (record,) = asterix.parse(block)
+    return {key: plain(item) for key, item in record.items()}
+
+
+def plain(item: Any) -> Any:
+    if not isinstance(item, dict):
+        return item
+    if "val" in item:
+        return item["val"]
+    return {key: plain(value) for key, value in item.items()}
