@@ -12,17 +12,19 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import zenoh
 
 from airhilt.bus.access import BY_CERTIFICATE, HOLDERS, WITHOUT_KEYS, Role, Subjects, access_control
-from airhilt.bus.certificates import read_keys
 from airhilt.bus.closed import Answer, ClosedBus, ignored
 from airhilt.bus.endpoints import is_taken, require_authenticated
 from airhilt.bus.intake import Source, size_filter
 from airhilt.errors import BusError, RendererError
 from airhilt.sim.payload import Payload
+
+if TYPE_CHECKING:
+    from airhilt.bus.certificates import Holder, Keys
 
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
@@ -110,7 +112,7 @@ def connect_client(
         Nothing listens there in time or lets this program in, the keys are none, or Zenoh cannot
         make its shared memory.
     """
-    keys = None if tls is None else read_keys(tls, role)
+    keys = _keys(tls, role)
     if endpoint is None and keys is not None:
         endpoint = keys.endpoint
     if endpoint is None:
@@ -137,6 +139,15 @@ def connect_client(
                     f"airhilt cosim --scenario NAME --endpoint {endpoint} (Zenoh: {_reason(error)})"
                 ) from None
             time.sleep(RETRY_S)
+
+
+def _keys(folder: Path | None, holder: Holder) -> Keys | None:
+    if folder is None:
+        return None
+    # Not at the top: a run without keys starts without the library behind them.
+    from airhilt.bus.certificates import read_keys
+
+    return read_keys(folder, holder)
 
 
 def find_run(session: zenoh.Session, patience_s: float) -> str:
@@ -188,7 +199,7 @@ class Bus(ClosedBus):
         tls: Path | None = None,
         insecure: bool = False,
     ) -> None:
-        keys = None if tls is None else read_keys(tls, "router")
+        keys = _keys(tls, "router")
         super().__init__(run, endpoint or (keys.endpoint if keys else free_endpoint()))
         self.prefix = f"{ROOT}/{run}"
         self.tls = tls
