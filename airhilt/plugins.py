@@ -128,8 +128,14 @@ def _declared(group: str) -> EntryPoints:
 
 
 @lru_cache
-def _read(group: str, _folders: tuple[tuple[str, int], ...]) -> EntryPoints:
-    return entry_points(group=group)
+def _read(group: str, folders: tuple[tuple[str, int], ...]) -> EntryPoints:
+    return _selection(folders)(group=group)
+
+
+@lru_cache(maxsize=1)
+def _selection(_folders: tuple[tuple[str, int], ...]) -> Callable[..., EntryPoints]:
+    """Return what selects among the entry points of all groups."""
+    return entry_points().select
 
 
 def _changed_ns(folder: str) -> int:
