@@ -27,7 +27,7 @@ class ClosedBus:
     def __init__(self, run: str, endpoint: str = "") -> None:
         self.run = run
         self.endpoint = endpoint
-        self.refused: Refused = ignored
+        self.refused: Refused = _ignored
 
     def put(self, key: str, payload: Payload, attachment: bytes | None = None) -> None:
         """Publish to nobody; a deferred payload is not made."""
@@ -52,8 +52,9 @@ class ClosedBus:
         """Answer nothing."""
 
     def close(self) -> None:
-        """Do nothing."""
+        """Let go of whom it tells."""
+        self.refused = _ignored
 
 
-def ignored(_key: str, _cause: str) -> None:
+def _ignored(_key: str, _cause: str) -> None:
     """Take no note."""

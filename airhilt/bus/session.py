@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import zenoh
 
 from airhilt.bus.access import BY_CERTIFICATE, HOLDERS, WITHOUT_KEYS, Role, Subjects, access_control
-from airhilt.bus.closed import Answer, ClosedBus, ignored
+from airhilt.bus.closed import Answer, ClosedBus
 from airhilt.bus.endpoints import is_taken, require_authenticated
 from airhilt.bus.intake import Source, size_filter
 from airhilt.errors import BusError, RendererError
@@ -374,7 +374,7 @@ class Bus(ClosedBus):
             subscriber.undeclare()
             thread.join()
         self._hearing.clear()
-        self.refused = ignored
+        super().close()
         self._publishers.clear()
         self._kept.clear()
         session = self.session
