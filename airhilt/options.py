@@ -197,7 +197,7 @@ class Options(BaseModel):
             "--endpoint",
             "Where the bus accepts connections, such as tcp/127.0.0.1:7447.",
             "ENDPOINT",
-            default="a free port",
+            default="none, or a free port with --attach, --seat, --tls or --share-truth",
             in_sweeps=False,
         ),
     ] = None
@@ -496,6 +496,12 @@ class Options(BaseModel):
         ),
     ] = True
     strict: Annotated[bool, Flag("--strict", "Stop when a worker is lost (exit code 3).")] = False
+
+    @property
+    def may_be_joined(self) -> bool:
+        """True if programs of other processes can connect to the run."""
+        asked = self.attach or self.seat or self.share_truth
+        return bool(asked) or self.endpoint is not None or self.tls is not None
 
     @property
     def given_modalities(self) -> frozenset[str]:

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib import import_module
 from importlib.metadata import EntryPoint, EntryPoints, entry_points
 from inspect import get_annotations
@@ -56,9 +56,9 @@ class Family:
     def own(self) -> list[EntryPoint]:
         """Return where the members of AIRHILT are."""
         return [
-            EntryPoint(found.name, f"{self.package}.{found.name}:{self.attribute}", self.group)
-            for found in pkgutil.iter_modules(import_module(self.package).__path__)
-            if not found.name.startswith("_") and found.name not in self.not_members
+            EntryPoint(name, f"{self.package}.{name}:{self.attribute}", self.group)
+            for name in _modules(self.package)
+            if not name.startswith("_") and name not in self.not_members
         ]
 
     def is_own(self, name: str) -> bool:
@@ -111,6 +111,12 @@ class Family:
         return [*self.own(), *_declared(self.group)]
 
 
+@cache
+def _modules(package: str) -> tuple[str, ...]:
+    """Return the names of the modules in a package of AIRHILT."""
+    return tuple(found.name for found in pkgutil.iter_modules(import_module(package).__path__))
+
+
 def _declared(group: str) -> EntryPoints:
     """Return the entry points of a group that installed packages declare.
 
@@ -122,8 +128,14 @@ def _declared(group: str) -> EntryPoints:
 
 
 @lru_cache
-def _read(group: str, _folders: tuple[tuple[str, int], ...]) -> EntryPoints:
-    return entry_points(group=group)
+def _read(group: str, folders: tuple[tuple[str, int], ...]) -> EntryPoints:
+    return _selection(folders)(group=group)
+
+
+@lru_cache(maxsize=1)
+def _selection(_folders: tuple[tuple[str, int], ...]) -> Callable[..., EntryPoints]:
+    """Return what selects among the entry points of all groups."""
+    return entry_points().select
 
 
 def _changed_ns(folder: str) -> int:

@@ -12,21 +12,20 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import zenoh
 
 from airhilt.bus.access import BY_CERTIFICATE, HOLDERS, WITHOUT_KEYS, Role, Subjects, access_control
-from airhilt.bus.certificates import read_keys
+from airhilt.bus.closed import Answer, ClosedBus
 from airhilt.bus.endpoints import is_taken, require_authenticated
 from airhilt.bus.intake import Source, size_filter
 from airhilt.errors import BusError, RendererError
 from airhilt.sim.payload import Payload
 
-Answer = Callable[[bytes], None]
-"""Answers a query with a payload."""
-Refused = Callable[[str, str], None]
-"""Called with the key, relative to the run, and the cause of what does not count on the bus."""
+if TYPE_CHECKING:
+    from airhilt.bus.certificates import Holder, Keys
+
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
 RETRY_S = 0.2
@@ -113,7 +112,7 @@ def connect_client(
         Nothing listens there in time or lets this program in, the keys are none, or Zenoh cannot
         make its shared memory.
     """
-    keys = None if tls is None else read_keys(tls, role)
+    keys = _keys(tls, role)
     if endpoint is None and keys is not None:
         endpoint = keys.endpoint
     if endpoint is None:
@@ -142,6 +141,15 @@ def connect_client(
             time.sleep(RETRY_S)
 
 
+def _keys(folder: Path | None, holder: Holder) -> Keys | None:
+    if folder is None:
+        return None
+    # Not at the top: a run without keys starts without the library behind them.
+    from airhilt.bus.certificates import read_keys
+
+    return read_keys(folder, holder)
+
+
 def find_run(session: zenoh.Session, patience_s: float) -> str:
     """Return the beginning of the keys of the run that answers at the endpoint of a session.
 
@@ -159,13 +167,8 @@ def find_run(session: zenoh.Session, patience_s: float) -> str:
     raise BusError(f"no run answers at the endpoint after {patience_s:g} s")
 
 
-class Bus:
+class Bus(ClosedBus):
     """The session of a run: publishes under ``airhilt/<run>/`` and hears what others publish there.
-
-    Attributes
-    ----------
-    refused
-        Called, on any thread, with what a worker of the bus refuses.
 
     Parameters
     ----------
@@ -196,11 +199,10 @@ class Bus:
         tls: Path | None = None,
         insecure: bool = False,
     ) -> None:
-        self.run = run
+        keys = _keys(tls, "router")
+        super().__init__(run, endpoint or (keys.endpoint if keys else free_endpoint()))
         self.prefix = f"{ROOT}/{run}"
         self.tls = tls
-        keys = None if tls is None else read_keys(tls, "router")
-        self.endpoint = endpoint or (keys.endpoint if keys else free_endpoint())
         require_authenticated(self.endpoint, keys is not None, insecure)
         subjects: Subjects = BY_CERTIFICATE if keys else {None: anyone}
         settings = {
@@ -224,7 +226,6 @@ class Bus:
             ) from None
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._latest: dict[str, bytes] = {}
-        self.refused: Refused = _ignored
         self._hearing: list[tuple[Any, threading.Thread]] = []
         self._kept: list[Any] = [self.session.liveliness().declare_token(f"{self.prefix}/run")]
 
@@ -373,7 +374,7 @@ class Bus:
             subscriber.undeclare()
             thread.join()
         self._hearing.clear()
-        self.refused = _ignored
+        super().close()
         self._publishers.clear()
         self._kept.clear()
         session = self.session
@@ -391,10 +392,6 @@ def close_session(session: zenoh.Session) -> None:
     closing = threading.Thread(target=close, daemon=True)
     closing.start()
     closing.join(CLOSING_S)
-
-
-def _ignored(_key: str, _cause: str) -> None:
-    """Take no note."""
 
 
 def _source(sample: zenoh.Sample) -> Source | None:

@@ -7,8 +7,8 @@ from functools import partial
 
 from pydantic import ValidationError
 
+from airhilt.bus.closed import Answer, ClosedBus
 from airhilt.bus.intake import Intake
-from airhilt.bus.session import Answer, Bus
 from airhilt.cosim.context import RunContext
 from airhilt.cosim.participants import Participants
 from airhilt.errors import WorkerError, first_problem
@@ -107,7 +107,7 @@ class ExternalPrograms:
         self._intake = Intake(self._limits, self._dropping)
         self.dropped: dict[str, int] = {}
 
-    def serve(self, bus: Bus) -> None:
+    def serve(self, bus: ClosedBus) -> None:
         """Hear what programs put on the bus, and what of it does not count."""
         bus.refused = self._hear_refusal
         bus.watch_holders(
@@ -117,7 +117,7 @@ class ExternalPrograms:
         for keys in HEARD:
             bus.hear(keys, self._hear, partial(self._intake.admit, keys))
 
-    def _asked(self, bus: Bus, key: str, data: bytes, answer: Answer) -> None:
+    def _asked(self, bus: ClosedBus, key: str, data: bytes, answer: Answer) -> None:
         """Handle a query by which somebody acts at a seat; called on any thread."""
         # Seats that nobody offers share one limit, so that they crowd out none that there is.
         if not self._intake.admit(key if key in self._act_keys else ACTS, len(data)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from airhilt.bus.session import Bus
+from airhilt.bus.closed import ClosedBus
 from airhilt.cosim.context import RunContext
 from airhilt.messages import (
     AFTER_STALL_S,
@@ -34,7 +34,7 @@ class PaceControl:
     """
 
     def __init__(
-        self, context: RunContext, seats: Seats, radio: RadioConversation, bus: Bus
+        self, context: RunContext, seats: Seats, radio: RadioConversation, bus: ClosedBus
     ) -> None:
         self._context = context
         self._director = context.director
@@ -106,7 +106,7 @@ class PaceControl:
                     self.set(1.0)
 
 
-def tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace, behind_ns: int = 0) -> None:
+def tell_clock(bus: ClosedBus, t_ns: int, phase: Phase, pace: Pace, behind_ns: int = 0) -> None:
     """Publish the time of a run."""
     behind_s = round(behind_ns / SECOND_NS, 1)
     clock = Clock(t_ns=t_ns, run=bus.run, phase=phase, pace=pace.name, behind_s=behind_s)

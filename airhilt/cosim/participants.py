@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 
 from airhilt.bus.attach import attach, require_different_names
+from airhilt.bus.closed import ClosedBus
 from airhilt.bus.session import Bus
 from airhilt.cosim.engines_in_use import engines_in_use, is_of_user, is_remote, other_machines
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
@@ -61,7 +62,7 @@ class Participants:
 
 
 def connect(
-    setup: Setup, bus: Bus, notice: Callable[[str], None], given: Sequence[Worker] = ()
+    setup: Setup, bus: ClosedBus, notice: Callable[[str], None], given: Sequence[Worker] = ()
 ) -> Participants:
     """Wait for the programs that are to attach, and make the workers that nobody else is.
 
@@ -85,7 +86,10 @@ def connect(
     options, recorded = setup.options, setup.recorded
     workers = list(recorded.workers)
     workers += [_participant(worker, "caller", is_of_user=True) for worker in given]
-    attached = attach(bus, options.attach, options.attach_timeout_s, options.step_timeout_s, notice)
+    attached = []
+    if isinstance(bus, Bus):
+        waits_s = options.attach_timeout_s, options.step_timeout_s
+        attached = attach(bus, options.attach, *waits_s, notice)
     workers += [
         Participant(description, worker, "attached", is_of_user=True)
         for worker, description in attached

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from airhilt.bus.session import Bus
+from airhilt.bus.closed import ClosedBus
 from airhilt.messages import RUN, Briefing, Message, RadarInfo, SeatState
 from airhilt.record.log import LogWriter
 from airhilt.sim.payload import Payload
@@ -30,7 +30,7 @@ class MessageRouter:
         Called with every message that is not truth, and the name of its publisher.
     """
 
-    def __init__(self, bus: Bus, log: LogWriter) -> None:
+    def __init__(self, bus: ClosedBus, log: LogWriter) -> None:
         self._bus = bus
         self._log = log
         self.observers: list[Listener] = []

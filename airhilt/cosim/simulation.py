@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
+from airhilt.bus.closed import ClosedBus
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
 from airhilt.cosim.briefing import briefing_of, seat_states
@@ -137,7 +138,10 @@ def run(
         return _run_and_report(simulation, info, setup.folder.path)
 
 
-def _open_bus(name: str, options: Options, observer: Observer) -> Bus:
+def _open_bus(name: str, options: Options, observer: Observer) -> ClosedBus:
+    """Return the bus of a run: closed where nobody is told how to join it."""
+    if not options.may_be_joined:
+        return ClosedBus(name)
     bus = Bus(
         name,
         options.endpoint,
@@ -173,7 +177,7 @@ class Simulation:
         participants: Participants,
         pace: Pace,
         vision: Vision,
-        bus: Bus,
+        bus: ClosedBus,
         observer: Observer,
         *,
         log: LogWriter,
@@ -341,7 +345,7 @@ class Simulation:
         for name, loss in recorded.losses.items():
             self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
 
-    def _serve(self, bus: Bus) -> None:
+    def _serve(self, bus: ClosedBus) -> None:
         """Notice workers that end, and hear what other programs publish by themselves."""
         expected = set(self._participants.attached)
 

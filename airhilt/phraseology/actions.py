@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 from airhilt.phraseology import (
     approaches,
     circuit,
@@ -17,6 +15,7 @@ from airhilt.phraseology import (
     vertical,
 )
 from airhilt.phraseology.forms import Form
+from airhilt.phraseology.patterns import LatePattern
 
 _SUBJECTS = (
     questions.FORMS, expectations.FORMS, circuit.FORMS, vertical.CROSSINGS, runways.FORMS,
@@ -29,7 +28,7 @@ def _by_first_word() -> dict[str, tuple[Form, ...]]:
     forms: dict[str, list[Form]] = {}
     for subject in _SUBJECTS:
         for words, action, pattern, build in subject:
-            form = Form(action, re.compile(rf"{pattern}(?!\S)"), build)
+            form = Form(action, LatePattern(rf"{pattern}(?!\S)"), build)
             for word in words.split():
                 forms.setdefault(word, []).append(form)
     return {word: tuple(listed) for word, listed in forms.items()}

@@ -15,6 +15,7 @@ from airhilt.phraseology.forms import Form
 from airhilt.phraseology.ground import route, taxi, vacate
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.lateral import taxiway_turn
+from airhilt.phraseology.patterns import LatePattern
 from airhilt.phraseology.questions import ADVISED
 from airhilt.phraseology.slots import FIX, LEVEL_WORDS, RUNWAY, SIDED_RUNWAY, TAXIWAY
 from airhilt.phraseology.speeds import KNOTS_FORM
@@ -99,7 +100,7 @@ _EVENTS = {
     "airborne": r"(?<!report )airborne(?= \||$)",
     "as": rf"as soon as(?: (?!climb|descend|turn)[a-z0-9]+){{1,6}}?(?={_VERB})",
 }
-EVENTS = {word: re.compile(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
+EVENTS = {word: LatePattern(rf"{pattern}(?!\S)") for word, pattern in _EVENTS.items()}
 """Patterns of conditions that end with their own words, by their first words."""
 SEEN = re.compile(r"traffic (?:is )?(?:not )?in sight(?!\S)")
 """A pilot's words about traffic, which end with their own words."""

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from airhilt.phraseology.call import Action, Asks, Instruction
 from airhilt.phraseology.hits import STATIONS
+from airhilt.phraseology.patterns import LatePattern
 from airhilt.phraseology.slots import (
     FIX_ENDS,
     NAMED_RUNWAY,
@@ -93,7 +94,7 @@ class Form(NamedTuple):
     """One form of an action: a pattern of its words, and the function that reads its details."""
 
     action: Action
-    words: re.Pattern[str]
+    words: re.Pattern[str] | LatePattern
     build: Builder
 
 

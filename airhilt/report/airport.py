@@ -15,8 +15,8 @@ import numpy as np
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import NAUTICAL_MILE
 from airhilt.world.surface import path as lines
-from airhilt.world.surface.airport import Edge, load_airport
-from airhilt.world.surface.layout import Layout
+from airhilt.world.surface.airport import Edge
+from airhilt.world.surface.layout import load_layout
 from airhilt.world.surface.path import Local
 from airhilt.world.surface.strips import RunwayStrip
 
@@ -31,7 +31,7 @@ class ReportAirport:
     """
 
     def __init__(self, name: str, files: Mapping[str, Any] = MappingProxyType({})) -> None:
-        self._layout = Layout(load_airport(name, files))
+        self._layout = load_layout(name, files)
         self._frame = self._layout.local_frame
 
     def locate(self, place: Place, height_m: float) -> Local:  # noqa: ARG002

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,6 +21,9 @@ GREATEST_DEPTH = 24
 """Greatest number of lists and objects within each other; conditions nest by two a level."""
 LONGEST_TEXT = 20_000
 """Greatest number of characters in a text."""
+CONTROL_CHARACTER = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+"""Control characters but tabulators and ends of lines."""
+SURROGATE = re.compile("[\ud800-\udfff]")
 
 Json = Any
 """JSON document, as `json.load` returns it."""
@@ -116,9 +120,9 @@ def _problems(path: str, value: Json, depth: int) -> Iterator[Problem]:
 def _text_problems(path: str, text: str) -> Iterator[Problem]:
     if len(text) > LONGEST_TEXT:
         yield Problem(path, f"found a text of {len(text):,} characters; expected fewer")
-    elif any(letter < " " and letter not in "\n\r\t" for letter in text):
+    elif CONTROL_CHARACTER.search(text):
         yield Problem(path, "found a control character; expected a text without")
-    elif any("\ud800" <= letter <= "\udfff" for letter in text):
+    elif SURROGATE.search(text):
         yield Problem(path, "found half of a surrogate pair; expected Unicode text")
 
 

@@ -104,7 +104,11 @@ class Case:
         return hashlib.sha256(text.encode()).hexdigest()
 
 
-def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Case]:
+def cases(
+    specification: Specification,
+    allowed: Sequence[Path] = (),
+    scenarios: LoadedScenarios | None = None,
+) -> list[Case]:
     """Return the runs of a sweep, in the order of scenarios, parameters and seeds.
 
     Every scenario with every combination of values is checked before the first run.
@@ -113,30 +117,33 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
     ----------
     allowed
         Folders besides its own in which a scenario may name files.
+    scenarios
+        Scenarios that other sweeps have loaded, which these runs have too; None: there are none.
 
     Raises
     ------
     AirhiltError
         Something is wrong with them; the message tells all of it.
     """
-    scenarios = [load(path, allowed) for path in _paths(specification.scenarios)]
+    known = scenarios or LoadedScenarios(allowed)
+    loaded = [known.of(path) for path in _paths(specification.scenarios)]
     seeds = _seeds(specification)
     drawn = 1 if specification.sample is None else specification.sample.count
     sizes = (len(_distinct(listed(values))) for values in specification.axes.values())
-    total = len(scenarios) * len(seeds) * drawn * math.prod(sizes)
+    total = len(loaded) * len(seeds) * drawn * math.prod(sizes)
     if total > MOST_RUNS:
         raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
     combinations = list(_combinations(specification))
-    checks, files = RunChecks(seeds), NamedFiles()
+    checks = RunChecks(seeds)
     found: list[Case] = []
     problems: defaultdict[str, list[str]] = defaultdict(list)
-    for scenario in scenarios:
-        document = scenario.model_dump(mode="json")
+    for scenario, document in loaded:
         require_different_places([each for each, _ in combinations[0]], document)
         for combination in combinations:
             try:
-                plan = _plan(document, specification.options, combination, checks)
-                named = files.of(plan.document, plan.options)
+                begun = Plan(document, {ASSISTANT_OPTION: None, **specification.options})
+                plan = _plan(scenario, begun, combination, checks)
+                named = known.files.of(plan.document, plan.options)
             except AirhiltError as error:
                 values = ", ".join(
                     f"{each.path}={json.dumps(value)}" for each, value in combination
@@ -156,6 +163,34 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
         tail = [f"... and {more} more"] if more > 0 else []
         raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
     return found
+
+
+class LoadedScenarios:
+    """Scenarios with their documents, each loaded and checked once however many sweeps have it.
+
+    Parameters
+    ----------
+    allowed
+        Folders besides their own in which they may name files.
+    """
+
+    def __init__(self, allowed: Sequence[Path] = ()) -> None:
+        self._allowed = allowed
+        self._known: dict[Path, tuple[Scenario, Json]] = {}
+        self.files = NamedFiles()
+
+    def of(self, path: Path) -> tuple[Scenario, Json]:
+        """Return the scenario in a file, and its document.
+
+        Raises
+        ------
+        ScenarioError
+            It is not valid.
+        """
+        if path not in self._known:
+            scenario = load(path, self._allowed)
+            self._known[path] = scenario, scenario.model_dump(mode="json")
+        return self._known[path]
 
 
 def _paths(patterns: Sequence[str]) -> list[Path]:
@@ -211,19 +246,19 @@ def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
     return list(first.values())
 
 
-def _plan(document: Json, options: Json, combination: Combination, checks: RunChecks) -> Plan:
-    """Return a checked run in the making; options are those that were given, as JSON has them."""
-    plan = Plan(document, {ASSISTANT_OPTION: None, **options})
+def _plan(scenario: Scenario, begun: Plan, combination: Combination, checks: RunChecks) -> Plan:
+    """Return a checked run of a scenario in the making, with the values of a combination."""
+    plan = begun
     for each, value in combination:
         plan = each.put(plan, value)
     assistant = plan.options[ASSISTANT_OPTION] or ASSISTANTS.default
     options, is_changed = (
         plan.options | {ASSISTANT_OPTION: assistant},
-        plan.document is not document,
+        plan.document is not begun.document,
     )
     problems: list[str] = []
     try:
-        scenario = _scenario(plan.document, is_changed=is_changed)
+        scenario = _changed(plan.document) if is_changed else scenario
     except AirhiltError as error:
         problems += getattr(error, "problems", (str(error),))
     try:
@@ -234,16 +269,15 @@ def _plan(document: Json, options: Json, combination: Combination, checks: RunCh
         problems += checks.problems(checked, scenario)
     if problems:
         raise ScenarioError("\n".join(problems), tuple(problems))
-    written = scenario.model_dump(mode="json") if is_changed else document
+    written = scenario.model_dump(mode="json") if is_changed else plan.document
     return Plan(written, checked.model_dump(mode="json", exclude_defaults=True))
 
 
-def _scenario(document: Json, *, is_changed: bool) -> Scenario:
-    """Return the scenario of a document; one that is changed is checked in its world again."""
+def _changed(document: Json) -> Scenario:
+    """Return the scenario of a document with other values, checked in its world."""
     require_bounded(document, document["name"])
     scenario = validated(Scenario, document, document["name"])
-    if is_changed:
-        check(scenario, scenario.name)
+    check(scenario, scenario.name)
     return scenario
 
 

@@ -74,9 +74,17 @@ class SweepResult:
 
 
 def sweep(
-    specification: Specification, work: Work, observer: SweepObserver | None = None
+    specification: Specification,
+    work: Work,
+    observer: SweepObserver | None = None,
+    grid: Sequence[Case] | None = None,
 ) -> SweepResult:
     """Run what a sweep's folder does not have yet, and write its tables.
+
+    Parameters
+    ----------
+    grid
+        The checked runs of the specification; None: they are yet to be checked.
 
     Raises
     ------
@@ -86,7 +94,7 @@ def sweep(
     """
     observer = observer or SweepObserver()
     require_scheduler(work.scheduler)
-    grid = cases(specification, work.allowed)
+    grid = cases(specification, work.allowed) if grid is None else grid
     renderer = renderer_of(grid)
     own = _own_environment(renderer, work.limits)
     by_key = {case.key(own): case for case in grid}

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 import tempfile
+from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
 from airhilt.errors import AirhiltError
 from airhilt.host.machine import available_cores
 from airhilt.record.sweep_folder import SweepFolder
-from airhilt.sweep.cases import cases
+from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.engine import by_keys, missing_of, renderer_of, request_of
-from airhilt.sweep.runner_process import RunnerProcess
+from airhilt.sweep.outcome import Machine
+from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.scheduler import LOCAL, require_scheduler
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import part_schema
@@ -59,24 +62,60 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     """
     require_scheduler(work.scheduler)
     grid = cases(specification, work.allowed)
+    with closing(Probes(work.limits)) as probes:
+        return estimate_of(grid, work, probes)
+
+
+class Probes:
+    """Tries runs: one of each kind, with cameras or without, and with speech or without."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._runners: dict[str, RunnerProcess] = {}
+        self._tried: dict[tuple[str, bool], Machine] = {}
+
+    def runner(self, renderer: str) -> RunnerProcess:
+        """Return the process that tries runs with a renderer; see `RunnerProcess` for errors."""
+        if renderer not in self._runners:
+            self._runners[renderer] = RunnerProcess(renderer, self._limits)
+        return self._runners[renderer]
+
+    def of(self, key: str, case: Case) -> Machine:
+        """Return what a run of the kind of a case took.
+
+        Raises
+        ------
+        AirhiltError
+            It has not finished.
+        """
+        renderer = renderer_of([case])
+        kind = renderer, bool(case.options.get("speech", True))
+        if kind not in self._tried:
+            with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
+                request = request_of(key, case, Path(scratch) / "run")
+                probe = self.runner(renderer).run(request)
+            if probe.status != "finished":
+                raise AirhiltError(f"the first run, a probe, {probe.status}: {probe.cause}")
+            self._tried[kind] = probe.machine
+        return self._tried[kind]
+
+    def close(self) -> None:
+        """End the processes."""
+        for runner in self._runners.values():
+            runner.close()
+
+
+def estimate_of(grid: Sequence[Case], work: Work, probes: Probes) -> Estimate:
+    """Return the size of a sweep of checked runs; see `estimate`."""
     renderer = renderer_of(grid)
     store = SweepFolder(work.out)
     store.require_usable()
-    runner = RunnerProcess(renderer, work.limits)
-    try:
-        by_key = {case.key(runner.environment): case for case in grid}
-        finished = by_keys(store.finished(part_schema(), None), by_key)
-        left = missing_of(by_key, finished, work.retry)
-        probe = None
-        if left:
-            with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
-                key, folder = left[0], Path(scratch) / "run"
-                probe = runner.run(request_of(key, by_key[key], folder))
-    finally:
-        runner.close()
-    if probe is not None and probe.status != "finished":
-        raise AirhiltError(f"the first run, a probe, {probe.status}: {probe.cause}")
-    run_s = None if probe is None else probe.machine.wall_s
+    own = probes.runner(renderer).environment
+    by_key = {case.key(own): case for case in grid}
+    finished = by_keys(store.finished(part_schema(), None), by_key)
+    left = missing_of(by_key, finished, work.retry)
+    probe = probes.of(left[0], by_key[left[0]]) if left else None
+    run_s = None if probe is None else probe.wall_s
     workers = work.workers or default_workers(renderer)
     at_once = min(workers, available_cores()) if work.scheduler == LOCAL else None
     total_s = None if at_once is None else math.ceil(len(left) / at_once) * (run_s or 0.0)
@@ -84,7 +123,7 @@ def estimate(specification: Specification, work: Work) -> Estimate:
         runs=len(by_key),
         finished=len(by_key) - len(left),
         run_s=run_s,
-        run_mb=None if probe is None else probe.machine.peak_memory_mb,
+        run_mb=None if probe is None else probe.peak_memory_mb,
         workers=workers,
         at_once=at_once,
         total_s=total_s if left else 0.0,

@@ -64,10 +64,9 @@ class ScenarioSite:
         if isinstance(scene, EnRouteScene):
             return cls(scene.centre, scene.terrain_elevation_ft * FOOT, fixes=scenario.fixes)
         # Not at the top: scenarios without an airport start without the libraries behind it.
-        from airhilt.world.surface.airport import load_airport
-        from airhilt.world.surface.layout import Layout
+        from airhilt.world.surface.layout import load_layout
 
-        layout = Layout(load_airport(scene.airport, scenario.files))
+        layout = load_layout(scene.airport, scenario.files)
         latitude, longitude = layout.local_frame.to_place(0.0, 0.0)
         centre = GeodeticPosition(
             type="geodetic", lat_deg=latitude / DEGREE, lon_deg=longitude / DEGREE

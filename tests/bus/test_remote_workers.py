@@ -285,15 +285,21 @@ def test_a_worker_of_the_sdk_whose_step_has_a_part_of_another_type_is_lost(
 
 
 @pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="needs /proc")
-def test_a_run_listens_on_loopback_only(brief: Scenario, tmp_path: Path) -> None:
+@pytest.mark.parametrize("is_open", [True, False])
+def test_a_run_listens_on_loopback_only_and_where_nobody_is_to_join_nowhere(
+    brief: Scenario, tmp_path: Path, is_open: bool
+) -> None:
     seen: set[str] = set()
 
     class Looks(Observer):
         def snapshot(self, snapshot: Snapshot) -> None:
             seen.update(listening_addresses())
 
-    run(brief, out=tmp_path / "run", speech=False, latency="fixed", observer=Looks())
-    assert seen == {"127.0.0.1"}
+    run(
+        brief, out=tmp_path / "run", speech=False, latency="fixed", observer=Looks(),
+        endpoint=free_endpoint() if is_open else None,
+    )  # fmt: skip
+    assert seen == ({"127.0.0.1"} if is_open else set())
 
 
 def listening_addresses() -> set[str]:

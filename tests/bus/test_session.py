@@ -14,8 +14,9 @@ from weakref import ReferenceType, ref
 import pytest
 import zenoh
 
+from airhilt.bus.closed import Answer
 from airhilt.bus.remote_workers import RemoteWorker
-from airhilt.bus.session import Answer, Bus, connect_client, free_endpoint
+from airhilt.bus.session import Bus, connect_client, free_endpoint
 from airhilt.errors import BusError, RendererError
 from airhilt.sim.payload import DeferredBytes
 from airhilt.sim.worker import Input, WorkerLost

@@ -9,8 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import zenoh
 
 from airhilt import run
+from airhilt.bus.session import close_session, connect_client, find_run, free_endpoint
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
 from airhilt.scenario import Scenario
 from airhilt.scenario.models.radio import ReceiverRadio
@@ -36,6 +39,33 @@ def first(brief: Scenario, tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 def test_the_same_seed_gives_the_same_log(first: bytes, brief: Scenario, tmp_path: Path) -> None:
     assert log_of(brief, tmp_path / "b", seed=3, latency="fixed") == first
+
+
+def test_a_viewer_who_comes_late_and_reads_everything_does_not_change_the_log(
+    first: bytes, brief: Scenario, tmp_path: Path
+) -> None:
+    """Of what is published once, it asks for the newest."""
+    endpoint = free_endpoint()
+    found: list[str] = []
+    sessions: list[zenoh.Session] = []
+
+    class Late(Observer):
+        def snapshot(self, snapshot: Snapshot) -> None:
+            if not found and snapshot.t_s >= 4.0:
+                session = connect_client(endpoint, 10.0)
+                prefix = find_run(session, 10.0)
+                session.declare_subscriber(f"{prefix}/**", lambda _: found.append("heard"))
+                kept = session.get(f"{prefix}/briefing", timeout=5.0)
+                found.extend(str(each.ok.key_expr).removeprefix(prefix) for each in kept if each.ok)
+                sessions.append(session)
+
+    viewed = log_of(
+        brief, tmp_path / "b", seed=3, latency="fixed", endpoint=endpoint, observer=Late()
+    )
+    for session in sessions:
+        close_session(session)
+    assert viewed == first
+    assert {"/briefing", "heard"} <= set(found)
 
 
 def test_another_seed_gives_another_log(first: bytes, brief: Scenario, tmp_path: Path) -> None:

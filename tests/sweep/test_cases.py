@@ -13,7 +13,7 @@ import airhilt
 from airhilt.errors import AirhiltError
 from airhilt.scenario import Scenario
 from airhilt.scenario.perturbation import spreads
-from airhilt.sweep.cases import Case, cases
+from airhilt.sweep.cases import Case, LoadedScenarios, cases
 from airhilt.sweep.environment import PACKAGE_FILES, Environment, environment, require_same
 from airhilt.sweep.files import NamedFiles
 from airhilt.sweep.specification import Sample, Specification, specification_of
@@ -45,6 +45,14 @@ def test_a_grid_has_every_combination_once() -> None:
     assert all(name.startswith("s02a_") for name in names)
     assert len(names) > 1
     assert len(found) == len(names) * 3 * 2 * 2 == len(keys(found))
+
+
+def test_sweeps_that_share_scenarios_have_the_runs_that_each_has_alone() -> None:
+    shared = LoadedScenarios()
+    path = "actors.AAL123.initial.cas_kt"
+    for fields in ({}, {"axes": {path: [250, 270]}}, {"options": {"assistant": "none"}}):
+        wanted = given_as(seeds=[0, 1], **fields)
+        assert cases(wanted, scenarios=shared) == cases(wanted)
 
 
 def test_a_parameter_of_the_scenario_is_set_in_its_place_alone() -> None:

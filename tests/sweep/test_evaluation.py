@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ from airhilt.sweep.engine import SweepObserver, SweepResult
 from airhilt.sweep.evaluation import ranking
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.costs import costs
-from airhilt.sweep.evaluation.engine import Evaluation, evaluate
+from airhilt.sweep.evaluation.engine import Evaluation, estimates, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.presets import full, paper, recipients, roc
 from airhilt.sweep.evaluation.ranking import Tried, youden_index
@@ -33,6 +34,8 @@ from airhilt.sweep.evaluation.scores import (
     nuisance_per_hour,
 )
 from airhilt.sweep.evaluation.tables import Quantity, Table, number, share
+from airhilt.sweep.outcome import Machine, Outcome, Request
+from airhilt.sweep.specification import Specification
 from airhilt.sweep.work import Work
 from shortened import shortened
 from sweep_tables import sweep_row, write_sweep
@@ -476,6 +479,33 @@ def test_an_evaluation_leaves_sweeps_and_tables_and_goes_on_where_it_was(
     before = (tmp_path / "out" / "evaluation.json").read_bytes()
     evaluate(small, choice, work, unwatched)
     assert (tmp_path / "out" / "evaluation.json").read_bytes() == before
+
+
+def test_a_dry_run_tries_one_run_of_each_kind(
+    small: Preset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def specifications(choice: Choice) -> Mapping[str, Specification]:
+        only = small.specifications(choice)["only"]
+        silent = only.model_copy(update={"options": {**only.options, "speech": False}})
+        return {"first": only, "again": only, "silent": silent}
+
+    tried: list[Request] = []
+
+    def run(_: object, request: Request) -> Outcome:
+        tried.append(request)
+        machine = Machine(wall_s=len(tried), cpu_s=None, peak_memory_mb=0.0, host="here", process=1)
+        return Outcome(key=request.key, status="finished", cause="", is_kept=False, machine=machine)
+
+    monkeypatch.setattr("airhilt.sweep.runner_process.RunnerProcess.run", run)
+    found = estimates(
+        replace(small, specifications=specifications), Choice(2, {}), Work(tmp_path / "out")
+    )
+    assert {name: (each.runs, each.run_s) for name, each in found.items()} == {
+        "first": (2, 1.0),
+        "again": (2, 1.0),
+        "silent": (2, 2.0),
+    }
+    assert [request.options.get("speech", True) for request in tried] == [True, False]
 
 
 @pytest.mark.slow

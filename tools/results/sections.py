@@ -115,8 +115,8 @@ class PresetSection:
     seeds: int | None = None
 
     def size(self, wanted: Wanted) -> Size:
-        """Return the sum over the sweeps, each by a run that is tried."""
-        found = estimates(*self._work(wanted), lambda name: tell(f"{self.name}: estimates {name}"))
+        """Return the sum over the sweeps, by a run of each kind that is tried."""
+        found = estimates(*self._work(wanted))
         return Size(
             runs=sum(each.runs for each in found.values()),
             left=sum(each.runs - each.finished for each in found.values()),

@@ -100,17 +100,15 @@ def _print(evaluation: Evaluation, as_json: bool, quiet: bool) -> None:
 def _print_estimates(
     preset: Preset, choice: Choice, work: Work, as_json: bool, quiet: bool
 ) -> None:
-    """Print the size of each sweep; one run of each is tried."""
+    """Print the size of each sweep; a run of each kind is tried."""
     from dataclasses import asdict
 
     from airhilt.cli.sweep_output import print_estimate
     from airhilt.sweep.evaluation.engine import estimates
 
-    def told(name: str) -> None:
-        if not quiet:
-            tell(f"{name}: checks all runs, and does one of those that are left")
-
-    found = estimates(preset, choice, work, told)
+    if not quiet:
+        tell("checks all runs, and does one of those that are left, of each kind")
+    found = estimates(preset, choice, work)
     if as_json:
         click.echo(json.dumps({name: asdict(each) for name, each in found.items()}, indent=2))
         return

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -13,11 +13,12 @@ from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file, sha256
 from airhilt.report.evaluation.tables import render
 from airhilt.report.figures import Figures
-from airhilt.sweep.cases import cases
+from airhilt.sweep.cases import Case, LoadedScenarios, cases
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
-from airhilt.sweep.estimate import Estimate, estimate
+from airhilt.sweep.estimate import Estimate, Probes, estimate_of
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
 from airhilt.sweep.evaluation.tables import Table
+from airhilt.sweep.scheduler import require_scheduler
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.work import Work
 
@@ -136,9 +137,11 @@ def evaluate(
             "--out"
         )
     sweeps: dict[str, SweepResult] = {}
-    for name, specification in specifications_of(preset, choice).items():
+    specifications = preset.specifications(choice)
+    for name, grid in _grids(specifications, work).items():
         with watched(name) as observer:
-            sweeps[name] = sweep(specification, replace(work, out=work.out / name), observer)
+            own = replace(work, out=work.out / name)
+            sweeps[name] = sweep(specifications[name], own, observer, grid)
             if observer.stops:
                 return None
     rows = {
@@ -156,40 +159,26 @@ def evaluate(
     return evaluation
 
 
-def estimates(
-    preset: Preset, choice: Choice, work: Work, told: Callable[[str], None]
-) -> dict[str, Estimate]:
-    """Return the size of each sweep of a preset by its name; one run of each is tried.
-
-    Parameters
-    ----------
-    told
-        Is told the name of a sweep before its run is tried.
+def estimates(preset: Preset, choice: Choice, work: Work) -> dict[str, Estimate]:
+    """Return the size of each sweep of a preset by its name; a run of each kind is tried.
 
     Raises
     ------
     AirhiltError
-        A run cannot be as it is asked for, or the one that is tried fails.
+        A run cannot be as it is asked for, or one that is tried fails.
     """
-    found: dict[str, Estimate] = {}
-    for name, specification in specifications_of(preset, choice).items():
-        told(name)
-        found[name] = estimate(specification, replace(work, out=work.out / name))
-    return found
+    require_scheduler(work.scheduler)
+    with closing(Probes(work.limits)) as probes:
+        return {
+            name: estimate_of(grid, replace(work, out=work.out / name), probes)
+            for name, grid in _grids(preset.specifications(choice), work).items()
+        }
 
 
-def specifications_of(preset: Preset, choice: Choice) -> Mapping[str, Specification]:
-    """Return the sweeps of a preset by their names, once every run of all of them is checked.
-
-    Raises
-    ------
-    AirhiltError
-        A run cannot be as it is asked for.
-    """
-    specifications = preset.specifications(choice)
-    for specification in specifications.values():
-        cases(specification)
-    return specifications
+def _grids(specifications: Mapping[str, Specification], work: Work) -> dict[str, list[Case]]:
+    """Return the runs of all sweeps by their names, once every one is checked."""
+    scenarios = LoadedScenarios(work.allowed)
+    return {name: cases(each, scenarios=scenarios) for name, each in specifications.items()}
 
 
 def _absent(counts: Mapping[str, int], how: str) -> tuple[str, ...]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, Literal
 
@@ -228,5 +230,9 @@ def load_aircraft_type(name: str, files: Mapping[str, Any] = MappingProxyType({}
     """
     if name in files:
         return validated(AircraftType, files[name], name)
-    path = library.find("aircraft", name)
+    return _shipped(library.find("aircraft", name))
+
+
+@cache
+def _shipped(path: Path) -> AircraftType:
     return validated(AircraftType, documents.read(path), str(path))

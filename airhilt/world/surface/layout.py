@@ -7,19 +7,29 @@ Importing this module brings in Shapely and NetworkX: do so where an airport is 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import combinations
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 from shapely import LineString, Point
 
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, distance_and_azimuth
+from airhilt.host import library
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.surface import path as lines
-from airhilt.world.surface.airport import Airport, Edge, HoldShort
+from airhilt.world.surface.airport import (
+    Airport,
+    Edge,
+    HoldShort,
+    load_airport,
+    read_airport,
+)
 from airhilt.world.surface.airport import Polygon as Corners
 from airhilt.world.surface.path import Leg, Local
 from airhilt.world.surface.runway import RunwayEnd
@@ -82,6 +92,21 @@ class Exit:
     747 is clear, where the taxiways allow it."""
     hold: str
     """Name of the hold whose line it passes."""
+
+
+def load_layout(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> Layout:
+    """Return the layout of an airport; one that ships with AIRHILT is computed once a process.
+
+    Parameters and errors are those of `airhilt.world.surface.airport.load_airport`.
+    """
+    if name in files:
+        return Layout(load_airport(name, files))
+    return _shipped(library.find("airports", name.lower()))
+
+
+@cache
+def _shipped(path: Path) -> Layout:
+    return Layout(read_airport(path))
 
 
 class Layout:

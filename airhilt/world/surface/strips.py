@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from shapely import LineString, Point, Polygon
+from shapely import LineString, Polygon
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import distance_and_azimuth, onward
@@ -37,9 +37,28 @@ class RunwayStrip:
     standards matrix (appendix G), 250 ft for approach categories C and D; ICAO Annex 14 volume I,
     table 3-2, 90 m for code number 4 with precision approaches."""
 
-    def protects(self, point: lines.Local) -> bool:
-        """Return whether a point, in local metres, lies in the protected area."""
-        return bool(self.protected_area.contains(Point(point)))
+    start: lines.Local
+    along: lines.Local
+    """Begin of the centre line, and the unit vector to its end."""
+    pavement_m: float
+    """Length of the centre line."""
+
+    def protects(self, point: lines.Local, margin_m: float = 0.0) -> bool:
+        """Return whether a point, in local metres, lies in the protected area or near it.
+
+        Parameters
+        ----------
+        margin_m
+            Distance along and beside the runway by which the area is larger.
+        """
+        east_m, north_m = point[0] - self.start[0], point[1] - self.start[1]
+        along_m = east_m * self.along[0] + north_m * self.along[1]
+        aside_m = east_m * self.along[1] - north_m * self.along[0]
+        beyond_m = STRIP_BEYOND_END_M + margin_m
+        return (
+            abs(aside_m) < self.hold_distance_m + margin_m
+            and -beyond_m < along_m < self.pavement_m + beyond_m
+        )
 
 
 def runway_strip(runway: Runway, local_frame: LocalFrame) -> RunwayStrip:
@@ -47,7 +66,8 @@ def runway_strip(runway: Runway, local_frame: LocalFrame) -> RunwayStrip:
     low, high = runway.ends
     a, b = local_frame.to_local(low.place), local_frame.to_local(high.place)
     width_m = runway.width_ft * FOOT
-    beyond = STRIP_BEYOND_END_M / math.dist(a, b)
+    pavement_m = math.dist(a, b)
+    beyond = STRIP_BEYOND_END_M / pavement_m
     centreline = LineString([a, b])
     longer = LineString([lines.between(a, b, -beyond), lines.between(a, b, 1.0 + beyond)])
     return RunwayStrip(
@@ -57,6 +77,9 @@ def runway_strip(runway: Runway, local_frame: LocalFrame) -> RunwayStrip:
         protected_area=_band(longer, runway.hold_distance_m),
         centreline=centreline,
         hold_distance_m=runway.hold_distance_m,
+        start=a,
+        along=lines.unit(a, b),
+        pavement_m=pavement_m,
     )
 
 

@@ -296,15 +296,12 @@ class RunwayMonitor:
 
     def _reaches(self, strip: RunwayStrip, position: _Position) -> bool:
         """Return whether any part of an actor is in a protected area."""
-        actor, east, north = position
-        start_east, start_north, sin, cos = self._axes[strip.ends[0].ident]
-        aside = (east - start_east) * cos - (north - start_north) * sin
-        if abs(aside) > strip.hold_distance_m + radius_m(actor.body):
+        body, centre = position.actor.body, (position.east_m, position.north_m)
+        if strip.protects(centre):
+            return True
+        if not strip.protects(centre, radius_m(body)):
             return False
-        import shapely
-
-        points = np.add(corners(actor.body), (east, north))
-        return bool(shapely.contains_xy(strip.protected_area, points).any())
+        return any(map(strip.protects, np.add(corners(body), centre).tolist()))
 
     def _along(self, position: _Position, runway: str) -> tuple[float, float]:
         """Return distance past the threshold (m), and speed along the runway (m/s)."""
@@ -325,6 +322,8 @@ class RunwayMonitor:
     ) -> Iterator[User]:
         for callsign, position in positions.items():
             actor, body = position.actor, position.actor.body
+            if callsign not in inside and body.phase not in LANDING:
+                continue
             flies = actor.category == "aircraft" and not body.on_ground
             rolling = body.phase in ROLLING
             for end in strip.ends:

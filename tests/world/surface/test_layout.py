@@ -8,6 +8,8 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from shapely import LineString, Point
 
 from airhilt.errors import ScenarioError
@@ -82,6 +84,22 @@ def test_a_displaced_threshold_lies_beyond_the_start() -> None:
     ahead, azimuth = distance_and_azimuth(end.start, end.threshold)
     assert ahead == pytest.approx(end.displaced_m, abs=0.01)
     assert azimuth == pytest.approx(end.course_rad, abs=1e-6)
+
+
+@given(along=st.floats(-0.2, 1.2), aside_m=st.floats(-300.0, 300.0), margin_m=st.floats(0.0, 80.0))
+def test_a_point_is_protected_where_the_drawn_area_has_it(
+    washington: Layout, along: float, aside_m: float, margin_m: float
+) -> None:
+    for strip in washington.strips.values():
+        start, end = (Point(each) for each in strip.centreline.coords)
+        ahead = (end.x - start.x) / strip.pavement_m, (end.y - start.y) / strip.pavement_m
+        at = (
+            start.x + along * (end.x - start.x) + aside_m * ahead[1],
+            start.y + along * (end.y - start.y) - aside_m * ahead[0],
+        )
+        area = strip.protected_area.buffer(margin_m, join_style="mitre")
+        assume(area.exterior.distance(Point(at)) > 1e-6)
+        assert strip.protects(at, margin_m) == area.contains(Point(at))
 
 
 # --- holds ------------------------------------------------------------------------------------

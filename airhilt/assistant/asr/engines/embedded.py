@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
@@ -111,13 +112,13 @@ class Emission:
     """Sounds right before and right behind it that are in no word."""
 
 
-class Ctc:
-    """Recognises with the embedded model, or another of its kind.
+class Model:
+    """The files of a recogniser, read and found to fit together.
 
     Parameters
     ----------
-    folder
-        Folder with `FILES`; None: the model that ships with AIRHILT.
+    where
+        Folder with `FILES`.
 
     Raises
     ------
@@ -125,60 +126,80 @@ class Ctc:
         A file is missing, or the files do not fit together.
     """
 
-    name = "embedded"
-
-    def __init__(self, folder: Path | None = None) -> None:
-        where = folder or MODEL
+    def __init__(self, where: Path) -> None:
         missing = [name for name in FILES if not (where / name).is_file()]
         if missing:
             raise SpeechError(
-                f"recogniser {self.name}: {where} lacks {', '.join(missing)}; expected "
+                f"recogniser {Ctc.name}: {where} lacks {', '.join(missing)}; expected "
                 f"{', '.join(FILES)}, as tools/asr/train_asr.py writes them"
             )
-        self._pieces = Pieces((where / "pieces.txt").read_text(errors="replace").split())
+        self.pieces = Pieces((where / "pieces.txt").read_text(errors="replace").split())
         try:
-            self._card = card = Card.model_validate_json((where / "card.json").read_bytes())
+            self.card = card = Card.model_validate_json((where / "card.json").read_bytes())
         except ValidationError as error:
             raise SpeechError(
-                f"recogniser {self.name}: {where / 'card.json'} is no model card: "
+                f"recogniser {Ctc.name}: {where / 'card.json'} is no model card: "
                 f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
-        self._same = same_units(self._pieces)
-        self._roster: tuple[tuple[str, ...], Spotter] | None = None
+        self.same = same_units(self.pieces)
         network = where / "ctc.onnx"
-        self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
+        self.session = open_network(network, f"recogniser {Ctc.name}: {network}", EXPECTED)
         trial = {"features": np.zeros((1, TRIAL_FRAMES, BINS), np.float32)}
         try:
-            _, steps, units = first_look(self._session, trial)[0].shape
+            _, steps, units = first_look(self.session, trial)[0].shape
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise SpeechError(
-                f"recogniser {self.name}: {network} is of another kind: {first_line(error)}; "
+                f"recogniser {Ctc.name}: {network} is of another kind: {first_line(error)}; "
                 f"expected {EXPECTED}"
             ) from None
-        self._step_frames = TRIAL_FRAMES // steps
-        if units != len(self._pieces) + 1:
+        self.step_frames = TRIAL_FRAMES // steps
+        if units != len(self.pieces) + 1:
             raise SpeechError(
-                f"recogniser {self.name}: {where} does not fit together: ctc.onnx tells {units} "
-                f"units apart, pieces.txt has {len(self._pieces)}; expected one unit more than "
+                f"recogniser {Ctc.name}: {where} does not fit together: ctc.onnx tells {units} "
+                f"units apart, pieces.txt has {len(self.pieces)}; expected one unit more than "
                 "pieces"
             )
         language = Language(where / "language.npz", units)
-        self._search = BeamSearch(language, card.language_weight, card.piece_reward)
+        self.search = BeamSearch(language, card.language_weight, card.piece_reward)
+
+
+@cache
+def _shipped() -> Model:
+    """Return the model that ships with AIRHILT, which takes longer to open than a call to hear."""
+    return Model(MODEL)
+
+
+class Ctc:
+    """Recognises with the embedded model, or another of its kind.
+
+    Parameters
+    ----------
+    folder
+        Folder of a `Model`, whose errors are those of this; None: the model that ships with
+        AIRHILT.
+    """
+
+    name = "embedded"
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self._model = _shipped() if folder is None else Model(folder)
+        self._roster: tuple[tuple[str, ...], Spotter] | None = None
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         """Return the words of a call; see `AsrEngine.recognise`."""
         if len(audio) < LEAST_SAMPLES:
             return Recognised("", (), 1.0)
+        card = self._model.card
         words = [
-            (each.word, confidence_of(each, self._card.word_curve, self._card.lost_words))
+            (each.word, confidence_of(each, card.word_curve, card.lost_words))
             for each in self.path(self.posteriors(audio), callsigns)
         ]
         best = max((confidence for _, confidence in words), default=0.0)
-        kept = tuple(each for each in words if each[1] >= self._card.least_word_confidence)
-        if not kept or best < self._card.best_word_threshold:
+        kept = tuple(each for each in words if each[1] >= card.least_word_confidence)
+        if not kept or best < card.best_word_threshold:
             return Recognised("", (), 1.0 - best)
         whole = float(np.prod([confidence for _, confidence in words]))
-        confidence = self._card.call_calibration(whole)
+        confidence = card.call_calibration(whole)
         return Recognised(" ".join(word for word, _ in kept), kept, confidence)
 
     def path(self, posteriors: NDArray[np.float32], callsigns: Sequence[str]) -> list[Emission]:
@@ -188,15 +209,15 @@ class Ctc:
         return path if spotted is None else with_callsign(path, spotted)
 
     def _likeliest(self, posteriors: NDArray[np.float32]) -> list[Emission]:
-        units = self._search.units(posteriors)
-        posteriors, heard = with_same(posteriors, aligned(posteriors, units), self._same)
-        prior, order = self._search.prior(), self._search.language.order
+        units = self._model.search.units(posteriors)
+        posteriors, heard = with_same(posteriors, aligned(posteriors, units), self._model.same)
+        prior, order = self._model.search.prior(), self._model.search.language.order
         against = log_odds(posteriors, heard, prior, order)
-        places = self._pieces.words(units)
+        places = self._model.pieces.words(units)
         words = [heard[first:after] for first, after in places]
         return [
             Emission(
-                self._pieces.text(units[first:after]),
+                self._model.pieces.text(units[first:after]),
                 min(unit.posterior for unit in word),
                 word[0].begin,
                 min(against[first:after]),
@@ -209,7 +230,7 @@ class Ctc:
 
     def _spotter(self, callsigns: tuple[str, ...]) -> Spotter:
         if self._roster is None or self._roster[0] != callsigns:
-            spotter = Spotter(self._pieces, callsigns, self._card.callsign_odds)
+            spotter = Spotter(self._model.pieces, callsigns, self._model.card.callsign_odds)
             self._roster = (callsigns, spotter)
         return self._roster[1]
 
@@ -224,9 +245,9 @@ class Ctc:
     def _window(self, features: NDArray[np.float32], begin: int) -> NDArray[np.float32]:
         first = max(begin - CONTEXT_FRAMES, 0)
         seen = features[first : begin + WINDOW_FRAMES + CONTEXT_FRAMES]
-        logits = self._session.run(None, {"features": seen[None]})[0][0]
-        logits = logits[(begin - first) // self._step_frames :][
-            : WINDOW_FRAMES // self._step_frames
+        logits = self._model.session.run(None, {"features": seen[None]})[0][0]
+        logits = logits[(begin - first) // self._model.step_frames :][
+            : WINDOW_FRAMES // self._model.step_frames
         ]
         weights = np.exp(logits - logits.max(axis=1, keepdims=True))
         return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)

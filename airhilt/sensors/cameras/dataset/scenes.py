@@ -22,8 +22,7 @@ from airhilt.sensors.cameras.scene.builder import air_and_sun
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape, airport_landscape, open_country
 from airhilt.units import DEGREE
-from airhilt.world.surface.airport import load_airport
-from airhilt.world.surface.layout import Layout
+from airhilt.world.surface.layout import Layout, load_layout
 
 EN_ROUTE = "en_route"
 """Name of open country, in place of an airport."""
@@ -94,7 +93,7 @@ class Casting:
     def __init__(self, places: Sequence[str], size: tuple[int, int]) -> None:
         self._size = size
         self._layouts = {
-            place: None if place == EN_ROUTE else Layout(load_airport(place)) for place in places
+            place: None if place == EN_ROUTE else load_layout(place) for place in places
         }
         self._models = {kind: make(kind) for make, group in KINDS for kind, *_ in group}
 
