@@ -33,6 +33,7 @@ def in_cruise(
     seed: int = 1,
     atmosphere: Atmosphere | None = None,
     terrain_elevation_m: float = 0.0,
+    may_land: bool = True,
 ) -> Aircraft:
     """Return an aircraft of a type at 47 N 8 E, in its typical cruise where not told otherwise."""
     altitude, airspeed = CRUISE[name]
@@ -50,6 +51,7 @@ def in_cruise(
         seed=seed,
         atmosphere=atmosphere or Atmosphere(),
         terrain_elevation_m=terrain_elevation_m,
+        may_land=may_land,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from airhilt.shapes.aircraft.spec import AircraftDimensions
-from airhilt.world.flight.aircraft_type import AircraftType
+from airhilt.world.flight.aircraft_type import AircraftType, Rates
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.ground import GroundLaw
@@ -13,6 +13,9 @@ from airhilt.world.flight.procedure_commands import ProcedureCommands
 from airhilt.world.flight.procedures.taxi import Standing
 from airhilt.world.flight.starting import Start
 from airhilt.world.flight.state import AircraftState, Atmosphere, InitialCondition, OnGround
+
+NEAR_GROUND = Rates()
+"""Rates of a flight that may touch the ground."""
 
 
 class Aircraft:
@@ -32,6 +35,9 @@ class Aircraft:
         Mass above that of the type's model, as a part of its empty mass.
     tick_s
         Time between two calls of `advance`, in s, divided into steps of the flight dynamics.
+    may_land
+        False for an aircraft that begins in the air and is never told to land. It flies at the
+        rates of its type.
 
     Attributes
     ----------
@@ -61,10 +67,12 @@ class Aircraft:
         terrain_elevation_m: float = 0.0,
         load: float = 0.0,
         tick_s: float = 0.05,
-        substeps: int = 6,
+        may_land: bool = True,
     ) -> None:
         self.kind = kind
         self.ended: str | None = None
+        rates = NEAR_GROUND if may_land or isinstance(initial, OnGround) else kind.rates
+        substeps = round(tick_s * rates.steps_hz)
         self._substeps = range(substeps)
         self._guard = FlightGuard(kind)
         self._failing: list[int] = []

@@ -26,10 +26,11 @@ class ModelError(AirhiltError):
     """JSBSim does not have the model, or cannot fly it from the asked condition."""
 
 
-def load_model(model: str, load: float = 0.0) -> jsbsim.FGFDMExec:
+def load_model(model: str, step_s: float, load: float = 0.0) -> jsbsim.FGFDMExec:
     """Return a fresh FGFDMExec with the model loaded, silent and alone.
 
-    ``load`` is mass above that of the model, as a part of its empty mass, at its centre of gravity.
+    It takes steps of ``step_s``. ``load`` is mass above that of the model, as a part of its empty
+    mass, at its centre of gravity.
     JSBSim's logger belongs to a thread: what a model has to say later, in a thread in which none
     was loaded, goes to stdout. `ModelError` says that there is no such model, or it cannot load.
     """
@@ -44,6 +45,8 @@ def load_model(model: str, load: float = 0.0) -> jsbsim.FGFDMExec:
         Path(folder, f"{model}.xml").write_bytes(stripped)
         fdm = jsbsim.FGFDMExec(str(root))
         fdm.set_debug_level(0)
+        # Before the model: the parts of its flight control system keep the step that they find.
+        fdm.set_dt(step_s)
         try:
             loaded = fdm.load_model_with_paths(
                 model, scratch, str(root / "engine"), str(root / "systems")
