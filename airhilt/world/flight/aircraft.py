@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import deque
+
 from airhilt.shapes.aircraft.spec import AircraftDimensions
 from airhilt.world.flight.aircraft_type import AircraftType, Rates
 from airhilt.world.flight.airframe import Airframe
@@ -41,6 +43,8 @@ class Aircraft:
 
     Attributes
     ----------
+    state : AircraftState
+        True state after the last `advance`.
     en_route : FlightControl
         Commands for track, route, altitude and airspeed.
     procedures : ProcedureCommands
@@ -73,7 +77,9 @@ class Aircraft:
         self.ended: str | None = None
         rates = NEAR_GROUND if may_land or isinstance(initial, OnGround) else kind.rates
         substeps = round(tick_s * rates.steps_hz)
-        self._substeps = range(substeps)
+        ticks = round(1.0 / (tick_s * rates.law_hz))
+        self._substeps, self._ticks = range(substeps), range(ticks)
+        self._flown: deque[tuple[AircraftState, str | None]] = deque()
         self._guard = FlightGuard(kind)
         self._failing: list[int] = []
         self._airframe = airframe = Airframe(
@@ -83,18 +89,15 @@ class Aircraft:
             terrain_elevation_m=terrain_elevation_m,
             load=load,
         )
-        start = Start(airframe, kind, tick_s, substeps)
+        period_s = ticks * tick_s
+        start = Start(airframe, kind, period_s, ticks * substeps)
         autopilot = start.begin(initial, atmosphere, terrain_elevation_m)
         systems = AircraftSystems(
-            kind, airframe, autopilot, GroundLaw(airframe, kind, tick_s), tick_s
+            kind, airframe, autopilot, GroundLaw(airframe, kind, period_s), period_s
         )
         self.en_route = FlightControl(systems, initial, terrain_elevation_m)
+        self.state = self.en_route.state
         self.procedures = ProcedureCommands(self.en_route)
-
-    @property
-    def state(self) -> AircraftState:
-        """True state after the last `advance`."""
-        return self.en_route.state
 
     @property
     def phase(self) -> str:
@@ -147,9 +150,15 @@ class Aircraft:
         return self.en_route.guidance.speed.target_m_s
 
     def advance(self) -> None:
-        """Fly one tick; do nothing once the flight has ended."""
+        """Move on by one tick; do nothing once the flight has ended."""
         if self.ended is not None:
             return
+        if not self._flown:
+            self._fly()
+        self.state, self.ended = self._flown.popleft()
+
+    def _fly(self) -> None:
+        """Set the controls, and fly the ticks until they are set again."""
         control, airframe = self.en_route, self._airframe
         state = control.state
         control.phase = phase = control.phase.fly(state)
@@ -158,20 +167,25 @@ class Aircraft:
                 control.state = state._replace(
                     velocity_north_m_s=0.0, velocity_east_m_s=0.0, velocity_down_m_s=0.0
                 )
+            self._flown.append((control.state, None))
             return
         if phase.may_touch:
             airframe.set_wind_for_ground_speed(state.ground_speed_m_s)
         step = airframe.step
-        for _ in self._substeps:
-            step()
-        while self._failing:
-            airframe.cut_engine(self._failing.pop())
-        state = airframe.state()
-        self.ended = self._guard.check(
-            state, may_touch=phase.may_touch, on_ground=airframe.on_ground()
-        )
-        if self.ended is None:
+        for _ in self._ticks:
+            for _ in self._substeps:
+                step()
+            while self._failing:
+                airframe.cut_engine(self._failing.pop())
+            state = airframe.state()
+            ended = self._guard.check(
+                state, may_touch=phase.may_touch, on_ground=airframe.on_ground()
+            )
+            if ended is not None:
+                self._flown.append((control.state, ended))
+                return
             control.state = state
+            self._flown.append((state, None))
 
     def fail_engine(self, engine: int) -> None:
         """Stop an engine, counted from 0, for good; the present phase goes on.

@@ -126,6 +126,8 @@ class Rates(_Section):
 
     steps_hz: Literal[60, 120] = 120
     """Steps of the flight dynamics in a second."""
+    law_hz: Literal[10, 20] = 20
+    """Times in a second at which guidance and autopilot set the controls."""
 
 
 class Ground(_Section):
