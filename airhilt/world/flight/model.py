@@ -3,15 +3,17 @@
 Some models of the wheel open sockets (the 737 listens on TCP 5137) or write CSV files into
 site-packages. What is loaded here is derived from the wheel and written to a temporary folder that
 is gone when the model is loaded: no ``<input>``, no ``<output>``, and no autopilot of the model's
-own, since AIRHILT flies it.
+own, since AIRHILT flies it. Parts that move slowly run in few of the steps.
 """
 
 from __future__ import annotations
 
 import functools
+import itertools
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import jsbsim
 
@@ -20,6 +22,10 @@ from airhilt.errors import AirhiltError
 _SILENCE = jsbsim.DefaultLogger(jsbsim.LogLevel.STDOUT)
 # Kept here for good: JSBSim drops its reference when a thread ends, without holding the
 # interpreter lock, and the process dies of it if that was the last one.
+
+
+SLOW_PARTS_S = 0.05
+"""Time in s between two movements of gear, flaps, speed brakes and spoilers."""
 
 
 class ModelError(AirhiltError):
@@ -36,7 +42,7 @@ def load_model(model: str, step_s: float, load: float = 0.0) -> jsbsim.FGFDMExec
     """
     jsbsim.set_logger(_SILENCE)
     root = Path(jsbsim.get_default_root_dir())
-    stripped = _stripped(root, model)
+    stripped = _stripped(root, model, round(SLOW_PARTS_S / step_s))
     if load:
         stripped = _laden(stripped, load)
     with tempfile.TemporaryDirectory(prefix="airhilt-jsbsim-") as scratch:
@@ -59,7 +65,7 @@ def load_model(model: str, step_s: float, load: float = 0.0) -> jsbsim.FGFDMExec
 
 
 @functools.cache
-def _stripped(root: Path, model: str) -> bytes:
+def _stripped(root: Path, model: str, slow_steps: int) -> bytes:
     """Return the model's file without inputs, outputs and autopilot."""
     path = root / "aircraft" / model / f"{model}.xml"
     if not path.is_file():
@@ -72,7 +78,27 @@ def _stripped(root: Path, model: str) -> bytes:
         for source in component.findall("input"):
             if (source.text or "").strip().startswith("ap/"):
                 component.remove(source)
+    for control in config.iterfind("flight_control"):
+        for channel in control.findall("channel"):
+            _slow_down(control, channel, slow_steps)
     return ElementTree.tostring(config)
+
+
+def _slow_down(control: Element, channel: Element, steps: int) -> None:
+    """Run the parts of a channel from its first kinematic one on once in some steps.
+
+    Gear, flaps, speed brakes and spoilers are kinematic, and last in their channels.
+    """
+    parts = list(channel)
+    slow = list(itertools.dropwhile(lambda part: part.tag != "kinematic", parts))
+    if not slow:
+        return
+    name = f"{channel.get('name')}, slow"
+    ElementTree.SubElement(control, "channel", name=name, execrate=str(steps)).extend(slow)
+    for part in slow:
+        channel.remove(part)
+    if len(slow) == len(parts):
+        control.remove(channel)
 
 
 def _laden(config: bytes, load: float) -> bytes:
