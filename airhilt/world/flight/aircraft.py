@@ -18,6 +18,9 @@ from airhilt.world.flight.state import AircraftState, Atmosphere, InitialConditi
 
 NEAR_GROUND = Rates()
 """Rates of a flight that may touch the ground."""
+ROW_TICKS = 4
+"""Ticks that a flight which never lands is flown in one go, so that its data stay in the cache of
+the processor."""
 
 
 class Aircraft:
@@ -39,7 +42,7 @@ class Aircraft:
         Time between two calls of `advance`, in s, divided into steps of the flight dynamics.
     may_land
         False for an aircraft that begins in the air and is never told to land. It flies at the
-        rates of its type.
+        rates of its type, `ROW_TICKS` in one go: a command acts up to that much later.
 
     Attributes
     ----------
@@ -75,7 +78,9 @@ class Aircraft:
     ) -> None:
         self.kind = kind
         self.ended: str | None = None
-        rates = NEAR_GROUND if may_land or isinstance(initial, OnGround) else kind.rates
+        near_ground = may_land or isinstance(initial, OnGround)
+        rates = NEAR_GROUND if near_ground else kind.rates
+        self._row = 1 if near_ground else ROW_TICKS
         substeps = round(tick_s * rates.steps_hz)
         ticks = round(1.0 / (tick_s * rates.law_hz))
         self._substeps, self._ticks = range(substeps), range(ticks)
@@ -154,8 +159,15 @@ class Aircraft:
         if self.ended is not None:
             return
         if not self._flown:
-            self._fly()
+            self._fly_row()
         self.state, self.ended = self._flown.popleft()
+
+    def _fly_row(self) -> None:
+        """Fly a row of ticks, or until the flight ends."""
+        flown = self._flown
+        self._fly()
+        while len(flown) < self._row and flown[-1][1] is None:
+            self._fly()
 
     def _fly(self) -> None:
         """Set the controls, and fly the ticks until they are set again."""
@@ -190,7 +202,7 @@ class Aircraft:
     def fail_engine(self, engine: int) -> None:
         """Stop an engine, counted from 0, for good; the present phase goes on.
 
-        It stops at the end of the next tick: JSBSim undoes what is set before the first one. A
+        It stops at the end of the next tick flown: JSBSim undoes what is set before the first. A
         ValueError says that there is no such engine.
         """
         self._airframe.require_engine(engine)

@@ -76,3 +76,14 @@ def test_turbulence_shakes_it_as_it_does_at_an_airport(name: str) -> None:
         shaken.append(statistics.fmean(map(abs, turns)))
     at_airport, in_the_air = shaken
     assert in_the_air < 1.3 * at_airport
+
+
+def test_a_command_acts_within_a_fifth_of_a_second() -> None:
+    early, late, never = (in_cruise("737", may_land=False) for _ in range(3))
+    for ticks_before, aircraft in ((1, early), (4, late), (8, never)):
+        for tick in range(8):
+            if tick == ticks_before:
+                aircraft.en_route.turn_by(1.0)
+            aircraft.advance()
+    assert early.state == late.state
+    assert early.state.roll_rad > never.state.roll_rad
