@@ -28,7 +28,7 @@ from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05
-"""Control tick of the aircraft; the flight dynamics take six steps in it."""
+"""Control tick of the aircraft, in s."""
 
 
 class Setup:

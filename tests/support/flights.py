@@ -12,6 +12,7 @@ from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.flight import (
     Aircraft,
     AircraftState,
+    AircraftType,
     Atmosphere,
     InitialCondition,
     load_aircraft_type,
@@ -33,6 +34,8 @@ def in_cruise(
     seed: int = 1,
     atmosphere: Atmosphere | None = None,
     terrain_elevation_m: float = 0.0,
+    may_land: bool = True,
+    kind: AircraftType | None = None,
 ) -> Aircraft:
     """Return an aircraft of a type at 47 N 8 E, in its typical cruise where not told otherwise."""
     altitude, airspeed = CRUISE[name]
@@ -45,11 +48,12 @@ def in_cruise(
         vertical_rate_m_s=vertical_rate_m_s,
     )
     return Aircraft(
-        load_aircraft_type(name),
+        kind or load_aircraft_type(name),
         initial,
         seed=seed,
         atmosphere=atmosphere or Atmosphere(),
         terrain_elevation_m=terrain_elevation_m,
+        may_land=may_land,
     )
 
 

@@ -114,6 +114,7 @@ class _Builder:
             terrain_elevation_m=site.ground_m,
             load=actor.load,
             tick_s=self.tick_s,
+            may_land=site.layout is not None,
         )
         seed = response_seed(self.scenario, self.seed)
         responses = self.scenario.response_model.crews

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import deque
+
 from airhilt.shapes.aircraft.spec import AircraftDimensions
-from airhilt.world.flight.aircraft_type import AircraftType
+from airhilt.world.flight.aircraft_type import AircraftType, Rates
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.ground import GroundLaw
@@ -13,6 +15,12 @@ from airhilt.world.flight.procedure_commands import ProcedureCommands
 from airhilt.world.flight.procedures.taxi import Standing
 from airhilt.world.flight.starting import Start
 from airhilt.world.flight.state import AircraftState, Atmosphere, InitialCondition, OnGround
+
+NEAR_GROUND = Rates()
+"""Rates of a flight that may touch the ground."""
+ROW_TICKS = 4
+"""Ticks that a flight which never lands is flown in one go, so that its data stay in the cache of
+the processor."""
 
 
 class Aircraft:
@@ -32,9 +40,14 @@ class Aircraft:
         Mass above that of the type's model, as a part of its empty mass.
     tick_s
         Time between two calls of `advance`, in s, divided into steps of the flight dynamics.
+    may_land
+        False for an aircraft that begins in the air and is never told to land. It flies at the
+        rates of its type, `ROW_TICKS` in one go: a command acts up to that much later.
 
     Attributes
     ----------
+    state : AircraftState
+        True state after the last `advance`.
     en_route : FlightControl
         Commands for track, route, altitude and airspeed.
     procedures : ProcedureCommands
@@ -61,11 +74,17 @@ class Aircraft:
         terrain_elevation_m: float = 0.0,
         load: float = 0.0,
         tick_s: float = 0.05,
-        substeps: int = 6,
+        may_land: bool = True,
     ) -> None:
         self.kind = kind
         self.ended: str | None = None
-        self._substeps = range(substeps)
+        near_ground = may_land or isinstance(initial, OnGround)
+        rates = NEAR_GROUND if near_ground else kind.rates
+        self._row = 1 if near_ground else ROW_TICKS
+        substeps = round(tick_s * rates.steps_hz)
+        ticks = round(1.0 / (tick_s * rates.law_hz))
+        self._substeps, self._ticks = range(substeps), range(ticks)
+        self._flown: deque[tuple[AircraftState, str | None]] = deque()
         self._guard = FlightGuard(kind)
         self._failing: list[int] = []
         self._airframe = airframe = Airframe(
@@ -75,18 +94,15 @@ class Aircraft:
             terrain_elevation_m=terrain_elevation_m,
             load=load,
         )
-        start = Start(airframe, kind, tick_s, substeps)
+        period_s = ticks * tick_s
+        start = Start(airframe, kind, period_s, ticks * substeps)
         autopilot = start.begin(initial, atmosphere, terrain_elevation_m)
         systems = AircraftSystems(
-            kind, airframe, autopilot, GroundLaw(airframe, kind, tick_s), tick_s
+            kind, airframe, autopilot, GroundLaw(airframe, kind, period_s), period_s
         )
         self.en_route = FlightControl(systems, initial, terrain_elevation_m)
+        self.state = self.en_route.state
         self.procedures = ProcedureCommands(self.en_route)
-
-    @property
-    def state(self) -> AircraftState:
-        """True state after the last `advance`."""
-        return self.en_route.state
 
     @property
     def phase(self) -> str:
@@ -139,9 +155,22 @@ class Aircraft:
         return self.en_route.guidance.speed.target_m_s
 
     def advance(self) -> None:
-        """Fly one tick; do nothing once the flight has ended."""
+        """Move on by one tick; do nothing once the flight has ended."""
         if self.ended is not None:
             return
+        if not self._flown:
+            self._fly_row()
+        self.state, self.ended = self._flown.popleft()
+
+    def _fly_row(self) -> None:
+        """Fly a row of ticks, or until the flight ends."""
+        flown = self._flown
+        self._fly()
+        while len(flown) < self._row and flown[-1][1] is None:
+            self._fly()
+
+    def _fly(self) -> None:
+        """Set the controls, and fly the ticks until they are set again."""
         control, airframe = self.en_route, self._airframe
         state = control.state
         control.phase = phase = control.phase.fly(state)
@@ -150,25 +179,30 @@ class Aircraft:
                 control.state = state._replace(
                     velocity_north_m_s=0.0, velocity_east_m_s=0.0, velocity_down_m_s=0.0
                 )
+            self._flown.append((control.state, None))
             return
         if phase.may_touch:
             airframe.set_wind_for_ground_speed(state.ground_speed_m_s)
         step = airframe.step
-        for _ in self._substeps:
-            step()
-        while self._failing:
-            airframe.cut_engine(self._failing.pop())
-        state = airframe.state()
-        self.ended = self._guard.check(
-            state, may_touch=phase.may_touch, on_ground=airframe.on_ground()
-        )
-        if self.ended is None:
+        for _ in self._ticks:
+            for _ in self._substeps:
+                step()
+            while self._failing:
+                airframe.cut_engine(self._failing.pop())
+            state = airframe.state()
+            ended = self._guard.check(
+                state, may_touch=phase.may_touch, on_ground=airframe.on_ground()
+            )
+            if ended is not None:
+                self._flown.append((control.state, ended))
+                return
             control.state = state
+            self._flown.append((state, None))
 
     def fail_engine(self, engine: int) -> None:
         """Stop an engine, counted from 0, for good; the present phase goes on.
 
-        It stops at the end of the next tick: JSBSim undoes what is set before the first one. A
+        It stops at the end of the next tick flown: JSBSim undoes what is set before the first. A
         ValueError says that there is no such engine.
         """
         self._airframe.require_engine(engine)

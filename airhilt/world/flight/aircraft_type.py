@@ -123,6 +123,15 @@ class Gains(_Section):
     guidance: GuidanceGains
 
 
+class Rates(_Section):
+    """Rates in the air, far from any runway, at which the type is stable all over its envelope."""
+
+    steps_hz: Literal[60, 120] = 120
+    """Steps of the flight dynamics in a second."""
+    law_hz: Literal[10, 20] = 20
+    """Times in a second at which guidance and autopilot set the controls."""
+
+
 class Ground(_Section):
     """Rolling and taxiing."""
 
@@ -217,6 +226,7 @@ class AircraftType(_Section):
     start: Literal["trim", "settle"]
     """Way to the model's equilibrium: JSBSim's trim, or flying until it is steady."""
     gains: Gains
+    rates: Rates = Rates()
     ground: Ground
     takeoff: Takeoff
     landing: Landing

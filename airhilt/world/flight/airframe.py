@@ -68,13 +68,12 @@ class Airframe:
         terrain_elevation_m: float,
         load: float = 0.0,
     ) -> None:
-        self._fdm = fdm = load_model(kind.jsbsim_model, load)
+        self._fdm = fdm = load_model(kind.jsbsim_model, step_s, load)
         self._kind = kind
         self._seed = seed
         self._wheels_on_ground_m = terrain_elevation_m + kind.dimensions.wheel_height_offset_m
         self._engines = fdm.get_propulsion().get_num_engines()
         self._failed_engines = 0
-        fdm.set_dt(step_s)
         fdm["ic/terrain-elevation-ft"] = terrain_elevation_m / FOOT
 
         self.step: Callable[[], bool] = fdm.run

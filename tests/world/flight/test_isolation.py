@@ -44,7 +44,7 @@ def test_four_types_fly_in_silence_without_a_socket_or_a_file(tmp_path: Path) ->
         env={
             **os.environ,
             "TMPDIR": str(scratch),
-            "PYTHONPATH": str(Path(library.__file__).parents[1]),
+            "PYTHONPATH": str(Path(library.__file__).parents[2]),
         },
         capture_output=True,
         text=True,
@@ -57,13 +57,13 @@ def test_four_types_fly_in_silence_without_a_socket_or_a_file(tmp_path: Path) ->
 
 
 def test_the_models_own_inputs_and_outputs_are_gone() -> None:
-    fdm = load_model("737")
+    fdm = load_model("737", 1 / 120)
     assert fdm.get_output_filename(0) == ""
 
 
 def test_a_model_that_jsbsim_does_not_have_is_named() -> None:
     with pytest.raises(ModelError, match="no model 'Zeppelin'"):
-        load_model("Zeppelin")
+        load_model("Zeppelin", 1 / 120)
 
 
 def listing(folder: Path) -> dict[Path, tuple[int, int]]:
