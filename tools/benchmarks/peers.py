@@ -40,7 +40,7 @@ class Row(NamedTuple):
     """Package that is not installed."""
 
     def __str__(self) -> str:
-        name = f"{self.simulator} {self.version}"
+        name = f"{self.simulator} {self.version}".strip()
         if self.lacks:
             return f"{name:24}{self.aircraft:4} aircraft: not installed (pip install {self.lacks})"
         return (
@@ -57,16 +57,21 @@ def rows(python: str, rounds: int) -> Iterator[Row]:
             for name, measure in _simulators(python).items():
                 measured.setdefault(name, []).append(measure(count, simulated_s))
         for name, found in measured.items():
-            first = found[0]
-            fastest = max(each.get("per_cpu_s", 0.0) for each in found)
-            yield Row(
-                name,
-                first.get("version", ""),
-                count,
-                first.get("step_s"),
-                fastest or None,
-                first.get("lacks", ""),
-            )
+            yield row_of(name, count, found)
+
+
+def row_of(name: str, count: int, found: list[dict[str, Any]]) -> Row:
+    """Return the best of what was measured of a simulator with a number of aircraft."""
+    fastest = max((each["per_cpu_s"] for each in found if "per_cpu_s" in each), default=None)
+    first = found[0]
+    return Row(
+        name,
+        first.get("version", ""),
+        count,
+        first.get("step_s"),
+        fastest,
+        first.get("lacks", ""),
+    )
 
 
 def bluesky(python: str) -> dict[str, float]:
