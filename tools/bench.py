@@ -22,7 +22,11 @@
     python tools/bench.py soak              two simulated hours with speech: memory, time
     python tools/bench.py sweep             overhead of a sweep, gain of a second worker
     python tools/bench.py startup           from the command to the first simulated second
-    python tools/bench.py bluesky --bluesky-python VENV/bin/python
+    python tools/bench.py bluesky --peers-python VENV/bin/python
+                                            the head-on encounter beside BlueSky, by wall time
+    python tools/bench.py peers --peers-python VENV/bin/python --rounds 3
+                                            AIRHILT, bare JSBSim at its step, BlueSky, BluebirdATC
+                                            and jsbgym with 2, 50 and 500 aircraft, by CPU time
     python tools/bench.py headon --json
 
 Each number is the best of several rounds, because other load on a machine only ever slows it.
@@ -70,9 +74,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("name", choices=[*BENCHMARKS, "bluesky", "procedures", "seat"])
+    parser.add_argument("name", choices=[*BENCHMARKS, "bluesky", "peers", "procedures", "seat"])
     parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument("--bluesky-python", default="python3", metavar="PYTHON")
+    parser.add_argument(
+        "--peers-python",
+        "--bluesky-python",
+        default=sys.executable,
+        metavar="PYTHON",
+        help="Python that has the other simulators",
+    )
+    parser.add_argument("--rounds", type=int, default=3, help="rounds of peers")
     parser.add_argument("--seeds", type=int, default=20, help="seeds of each procedure")
     parser.add_argument("--minutes", type=_minutes, default=1.0, help="time at the seat")
     parser.add_argument("--sound", action="store_true", help="speech and a microphone at the seat")
@@ -84,6 +95,11 @@ def main() -> None:
         rows = itertools.chain(published_flight.rows(), procedures.rows(given.seeds))
         failed = [row.is_failed for row in print_rows(rows, as_json=given.json)]
         sys.exit(1 if any(failed) else 0)
+    if given.name == "peers":
+        from benchmarks import peers
+
+        print_rows(peers.rows(given.peers_python, given.rounds), as_json=given.json)
+        return
     if given.name == "seat":
         from benchmarks.seat import looks
 
@@ -91,7 +107,7 @@ def main() -> None:
             looks(given.minutes, has_sound=given.sound, has_camera=given.camera), as_json=given.json
         )
         return
-    numbers = measured(given.name, given.bluesky_python)
+    numbers = measured(given.name, given.peers_python)
     if given.json:
         print(json.dumps(numbers, indent=2))
         return
@@ -108,12 +124,12 @@ def _minutes(text: str) -> float:
     return minutes
 
 
-def measured(name: str, bluesky_python: str) -> dict[str, float]:
+def measured(name: str, peers_python: str) -> dict[str, float]:
     """Return the numbers of a benchmark; only its own module is imported."""
     if name == "bluesky":
-        from benchmarks.traffic import bluesky
+        from benchmarks.peers import bluesky
 
-        return bluesky(bluesky_python)
+        return bluesky(peers_python)
     benchmark = getattr(importlib.import_module(f"benchmarks.{BENCHMARKS[name]}"), name)
     numbers: dict[str, float] = benchmark()
     return numbers

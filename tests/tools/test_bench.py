@@ -8,7 +8,7 @@ import pytest
 
 from airhilt.scenario.seats import seats_of
 from airhilt.world.checks import check
-from benchmarks import published_flight
+from benchmarks import peers, published_flight
 from benchmarks.process_tree import cpu_s
 from benchmarks.seat import sector_scenario
 from benchmarks.soak import soak_scenario
@@ -37,6 +37,12 @@ def test_the_scenario_of_the_seat_has_twenty_aircraft_and_a_controller() -> None
     check(scenario, "sector")
     assert len(scenario.actors) == 20
     assert seats_of(["tower"], scenario) == ("Potomac Approach",)
+
+
+def test_a_simulator_that_is_not_installed_is_named() -> None:
+    found = peers.timed(sys.executable, "jsbgym", 2, 1.0)
+    row = peers.row_of("jsbgym", 2, [found])
+    assert str(row).endswith("2 aircraft: not installed (pip install jsbgym)")
 
 
 def test_the_cpu_time_of_a_command_is_also_that_of_what_outlives_it() -> None:

@@ -1,12 +1,10 @@
-"""Runs without cameras: one encounter, many aircraft, a terminal, a busy airport, BlueSky."""
+"""Runs without cameras: one encounter, many aircraft, a terminal, a busy airport."""
 
 from __future__ import annotations
 
 import math
 import resource
 import statistics
-import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -17,27 +15,14 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.perturbation import realise
 from airhilt.world.actors import build_actors
 from airhilt.world.flight import Aircraft
+from airhilt.world.flight.airframe import Airframe
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
 from benchmarks.rounds import ROUNDS
 
-BLUESKY = """
-import time, bluesky as bs
-bs.init(mode="sim", detached=True)
-bs.settings.simdt = 0.05
-bs.sim.simdt = 0.05
-for i, lon in enumerate((-77.4, -76.6)):
-    bs.traf.cre(f"AC{i}", "B737", 38.9, lon, 90 if i == 0 else 270, 35000 * 0.3048, 135)
-bs.sim.op()
-best = 0.0
-for _ in range(3):
-    begun, from_s = time.perf_counter(), bs.sim.simt
-    for _ in range(4000):
-        bs.sim.step()
-    best = max(best, (bs.sim.simt - from_s) / (time.perf_counter() - begun))
-print(best)
-"""
+BARE_STEPS_HZ = 120.0
+"""Steps a second of bare JSBSim in `headon`, whatever AIRHILT takes: JSBSim's own default."""
 
 
 def headon() -> dict[str, float]:
@@ -49,18 +34,7 @@ def headon() -> dict[str, float]:
             summary = run(scenario, out=Path(scratch) / "run", cameras=False).summary
         factors.append(summary.real_time_factor)
         whole.append(summary.cpu_s / summary.duration_s)
-        realised, _ = realise(scenario, 0)
-        actors = build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
-        steppers = [
-            actor.body._airframe.step
-            for actor in actors.values()
-            if isinstance(actor.body, Aircraft)
-        ]
-        begun = time.process_time()
-        for _ in range(60 * 120):
-            for step in steppers:
-                step()
-        bare.append((time.process_time() - begun) / 60.0)
+        bare.append(bare_cpu_s(airframes_of(scenario), 60.0, BARE_STEPS_HZ))
     return {
         "real_time_factor_best": max(factors),
         "real_time_factor_median": statistics.median(factors),
@@ -71,6 +45,29 @@ def headon() -> dict[str, float]:
             a / b for a, b in zip(whole, bare, strict=True)
         ),
     }
+
+
+def airframes_of(scenario: Scenario) -> list[Airframe]:
+    """Return the flight dynamics of a scenario's aircraft, without anything around them."""
+    realised, _ = realise(scenario, 0)
+    actors = build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
+    return [actor.body._airframe for actor in actors.values() if isinstance(actor.body, Aircraft)]
+
+
+def step_s_of(airframes: list[Airframe]) -> float:
+    """Return the step of the flight dynamics, in s."""
+    step_s: float = airframes[0]._fdm.get_delta_t()
+    return step_s
+
+
+def bare_cpu_s(airframes: list[Airframe], simulated_s: float, steps_hz: float) -> float:
+    """Return the CPU time of a simulated second of the flight dynamics alone, in s."""
+    steppers = [airframe.step for airframe in airframes]
+    begun = time.process_time()
+    for _ in range(round(simulated_s * steps_hz)):
+        for step in steppers:
+            step()
+    return (time.process_time() - begun) / simulated_s
 
 
 def fifty_scenario() -> Scenario:
@@ -148,16 +145,22 @@ def _spread(index: int, count: int) -> dict[str, object]:
 
 def crowd() -> dict[str, float]:
     """Run a hundred aircraft, and five hundred."""
-    numbers = {}
-    for count in (100, 500):
-        with tempfile.TemporaryDirectory() as scratch:
-            begun = time.process_time()
-            run(crowd_scenario(count, 1.0), out=Path(scratch) / "short", report=False)
-            between = time.process_time()
-            run(crowd_scenario(count, 21.0), out=Path(scratch) / "long", report=False)
-            longer_s = (time.process_time() - between) - (between - begun)
-        numbers[f"cpu_s_per_simulated_s_of_{count}"] = longer_s / 20.0
-    return numbers
+    return {f"cpu_s_per_simulated_s_of_{count}": crowd_cpu_s(count, 20.0) for count in (100, 500)}
+
+
+def crowd_cpu_s(count: int, simulated_s: float) -> float:
+    """Return the CPU time of a simulated second of a crowd, in s, without start and end."""
+    short, long = (
+        _cpu_s(crowd_scenario(count, duration_s)) for duration_s in (1.0, 1.0 + simulated_s)
+    )
+    return (long - short) / simulated_s
+
+
+def _cpu_s(scenario: Scenario) -> float:
+    with tempfile.TemporaryDirectory() as scratch:
+        begun = time.process_time()
+        run(scenario, out=Path(scratch) / "run", report=False)
+        return time.process_time() - begun
 
 
 def terminal_scenario() -> Scenario:
@@ -250,22 +253,3 @@ def _repeated(scenario: Scenario, rounds: int = ROUNDS) -> dict[str, float]:
         "real_time_factor_best": max(factors),
         "real_time_factor_median": statistics.median(factors),
     }
-
-
-def bluesky(python: str) -> dict[str, float]:
-    """Compare with BlueSky's point masses at the same step, BlueSky being in its own environment.
-
-    Raises
-    ------
-    SystemExit
-        There is no BlueSky in that environment.
-    """
-    ours = headon()["real_time_factor_best"]
-    done = subprocess.run([python, "-c", BLUESKY], capture_output=True, text=True, check=False)
-    if done.returncode:
-        sys.exit(
-            f"{python}: cannot run BlueSky: {done.stderr.strip().splitlines()[-1:]}; make an "
-            "environment with `pip install bluesky-simulator` and give its python"
-        )
-    theirs = float(done.stdout.strip().splitlines()[-1])
-    return {"airhilt_x": ours, "bluesky_x": theirs, "ratio": ours / theirs}

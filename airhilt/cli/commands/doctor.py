@@ -15,6 +15,7 @@ from typing import Any
 
 import click
 
+from airhilt import units
 from airhilt._version import __version__
 from airhilt.cli.output import echo
 from airhilt.cli.parameters import json_array_option
@@ -55,7 +56,7 @@ class Finding:
 def examine() -> list[Finding]:
     """Return what was found, the things that every run needs first."""
     findings = [
-        Finding("airhilt", __version__, needed=True),
+        Finding("airhilt", f"{__version__}{_kind()}", needed=True),
         Finding("python", platform.python_version(), needed=True),
         *_packages(),
         *[_library(kind) for kind in ("aircraft", "scenarios")],
@@ -66,6 +67,11 @@ def examine() -> list[Finding]:
         _cache(),
     ]
     return [*findings, *[_package(name, extra) for name, extra in OPTIONAL.items()]]
+
+
+def _kind() -> str:
+    """Return what to add to the version if hot modules were compiled when the wheel was made."""
+    return "" if str(units.__file__).endswith(".py") else " (compiled)"
 
 
 def _packages() -> list[Finding]:
