@@ -29,10 +29,13 @@ class AirhiltError(Exception):
     is_of_machine
         True if the cause lies in the machine, not in the input: a process was killed, a service
         does not answer, a disk is full.
+    is_passing
+        True if the next attempt may succeed: a worker goes on without this one result.
     """
 
     exit_code = 2
     is_of_machine = False
+    is_passing = False
 
 
 class RunStopped(AirhiltError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from airhilt.assistant.asr.engine import AsrEngine
+from airhilt.assistant.asr.engine import AsrEngine, Call, recognised
 from airhilt.assistant.asr.partial import PartialRecogniser
 from airhilt.audio.pcm import from_pcm
 from airhilt.messages import (
@@ -85,7 +85,10 @@ class AsrWorker:
         header = model.model_validate(item.attachment)
         if not header.samples and not item.payload:
             return None  # In a run without sound, its words arrive as text.
-        heard = self._engine.recognise(from_pcm(item.payload), self._callsigns)
+        call = Call(
+            header.id, header.frequency_khz, header.t_tx_ns, header.keyed_by, self._callsigns
+        )
+        heard = recognised(self._engine, from_pcm(item.payload), call)
         transcript = Transcript(
             id=header.id,
             frequency_khz=header.frequency_khz,
