@@ -126,6 +126,17 @@ class LanguageModelError(AirhiltError):
     """A language model does not answer, refuses, or is not at the address that was given."""
 
 
+@contextmanager
+def keeping_passing(missed: list[str]) -> Iterator[None]:
+    """Append the text of an error that is passing to a list; other errors are raised."""
+    try:
+        yield
+    except AirhiltError as error:
+        if not error.is_passing:
+            raise
+        missed.append(str(error))
+
+
 def is_of_machine(error: BaseException) -> bool:
     """Return whether the cause of an error lies in the machine, not in the input."""
     if isinstance(error, AirhiltError):

@@ -31,7 +31,7 @@ class ServiceHeaders(BaseModel):
     Other text than ASCII is percent-encoded.
     """
 
-    model_config = ConfigDict(frozen=True, validate_by_name=True, extra="ignore")
+    model_config = ConfigDict(frozen=True, populate_by_name=True, extra="ignore")
     ts_ms: int | None = Field(
         default=None,
         alias="X-Ts-Ms",

@@ -148,15 +148,16 @@ def _whole_words(answer: Transcription) -> Iterator[WordConfidence]:
 
 
 def _confidence(word: TranscribedWord, answer: Transcription) -> float:
-    """Return the confidence of a word, or that of the segment which it begins in."""
+    """Return the confidence of a word, or that of the last segment which begins before it."""
     if word.probability is not None:
         return word.probability
-    for each in answer.segments:
-        if None in (word.start, each.start, each.end, each.avg_logprob):
-            continue
-        if each.start <= word.start <= each.end:
-            return math.exp(each.avg_logprob)
-    return 1.0
+    begin_s = 0.0 if word.start is None else word.start
+    sure = [
+        each.avg_logprob
+        for each in answer.segments
+        if each.avg_logprob is not None and (each.start or 0.0) <= begin_s
+    ]
+    return math.exp(sure[-1]) if sure else 1.0
 
 
 ENGINE = Engine(
@@ -166,4 +167,5 @@ ENGINE = Engine(
     takes=is_service,
     usage=USAGE,
     is_remote=True,
+    probe=lambda url: HttpAsr(url).probe(),
 )
