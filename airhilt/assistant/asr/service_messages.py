@@ -26,7 +26,7 @@ class TranscriptionForm(BaseModel):
         default="", description="callsigns of the roster as Whisper writes them: American 123"
     )
     temperature: float = 0.0
-    response_format: Literal["verbose_json"] = "verbose_json"
+    response_format: Literal["verbose_json", "json"] = "verbose_json"
     timestamp_granularities: Literal["word"] = Field(
         default="word", alias="timestamp_granularities[]"
     )

@@ -85,6 +85,7 @@ class TrackSlice(Part):
     track_deg: float
     vertical_rate_fpm: float
     nacp: int
+    nacv: int
 
 
 class FlightContext(Part):
