@@ -1,4 +1,4 @@
-"""Runs that ask AIRHILT's own services, in processes of their own, have the results of runs alone."""
+"""Runs that ask AIRHILT's own services, in other processes, have the results of runs alone."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from airhilt.assistant.service_kinds import PATHS
 from airhilt.messages import Transcript
 from airhilt.record import read_log
 
-TOKEN = "a token of sixteen letters or more"
+TOKEN = "a-token-of-sixteen-letters-or-more"
 pytestmark = pytest.mark.slow
 
 
@@ -32,27 +32,24 @@ def served(kind: str, *arguments: str) -> Iterator[str]:
             child.terminate()
 
 
-def results(folder: Path) -> list[Any]:
+def results(folder: Path) -> list[tuple[str, int, Any]]:
     """Return what was heard and what was told, and when, without the names of engines."""
-    return [
-        (
-            one.key,
-            one.t_ns,
-            Transcript.model_validate_json(one.data).model_copy(update={"engine": ""}),
-        )
-        if one.key.startswith("asr/")
-        else (one.key, one.t_ns, one.data)
-        for one in read_log(folder / "log.mcap")
-        if one.key.partition("/")[0] in ("asr", "advisory", "radio", "truth")
-    ]
+    found: list[tuple[str, int, Any]] = []
+    for one in read_log(folder / "log.mcap"):
+        if one.key.startswith("asr/"):
+            transcript = Transcript.model_validate_json(one.data)
+            found.append((one.key, one.t_ns, transcript.model_copy(update={"engine": ""})))
+        elif one.key.partition("/")[0] in ("advisory", "radio", "truth"):
+            found.append((one.key, one.t_ns, one.data))
+    return found
 
 
 def test_a_run_with_served_speech_is_the_run_alone(
     encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     token = tmp_path / "token"
-    token.write_text(TOKEN.replace(" ", "-"))
-    monkeypatch.setenv("AIRHILT_ASR_KEY", token.read_text())
+    token.write_text(TOKEN)
+    monkeypatch.setenv("AIRHILT_ASR_KEY", TOKEN)
     alone = run(encounter, out=tmp_path / "alone", latency="fixed")
     with ExitStack() as stack:
         asr = stack.enter_context(served("asr", "--token-file", str(token)))
