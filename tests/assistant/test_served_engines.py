@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from typing import Any, cast
+from collections.abc import Mapping
 
 import httpx
 import numpy as np
 import pytest
-import uvicorn
 
 from airhilt.assistant.asr.engine import Call
 from airhilt.assistant.asr.engines.http import HttpAsr
 from airhilt.assistant.service_check import check_service
 from airhilt.assistant.service_kinds import KINDS, PATHS, ServiceKind
 from airhilt.assistant.services_document import services_document
-from airhilt.assistant.serving import service_app
 from airhilt.assistant.vision.detectors.http import HttpDetector
 from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.engine_families import RECOGNISERS, VOICES
 from airhilt.errors import VisionError
 from airhilt.voices.engines.http import HttpTts
+from served_engines import served
 
 CALL = Call("c-1", 118_300, 0, None, ("AAL123", "DAL456"))
 ENGINES: Mapping[ServiceKind, str] = {
@@ -31,23 +27,6 @@ ENGINES: Mapping[ServiceKind, str] = {
     "vision": "embedded",
     "decision": "reference",
 }
-
-
-@contextmanager
-def served(kind: ServiceKind, engine: str) -> Iterator[str]:
-    """Yield the address of an engine."""
-    config = uvicorn.Config(service_app(kind, engine), port=0, log_level="warning", lifespan="off")
-    server = uvicorn.Server(config)
-    thread = threading.Thread(target=server.run)
-    thread.start()
-    try:
-        while not server.started:
-            thread.join(0.01)
-        port = cast("Any", server.servers[0].sockets[0]).getsockname()[1]
-        yield f"http://127.0.0.1:{port}{PATHS[kind]}"
-    finally:
-        server.should_exit = True
-        thread.join()
 
 
 def test_voices_and_recognisers_say_and_hear_the_same_as_in_process() -> None:

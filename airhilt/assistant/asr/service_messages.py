@@ -70,7 +70,7 @@ class TranscribedSegment(_Answer):
     avg_logprob: Annotated[float, Field(le=0.0)] | None = Field(
         default=None, description="mean of the logarithms of the probabilities of its tokens"
     )
-    words: tuple[TranscribedWord, ...] = ()
+    words: tuple[TranscribedWord, ...] | None = None
 
 
 class Transcription(_Answer):
@@ -80,8 +80,8 @@ class Transcription(_Answer):
     confidence: Confidence | None = Field(
         default=None, description="of the whole; null: that of its words and segments"
     )
-    words: tuple[TranscribedWord, ...] = ()
-    segments: tuple[TranscribedSegment, ...] = ()
+    words: tuple[TranscribedWord, ...] | None = None
+    segments: tuple[TranscribedSegment, ...] | None = None
 
     @model_validator(mode="after")
     def _has_words_in_order(self) -> Self:
@@ -93,4 +93,6 @@ class Transcription(_Answer):
 
     def all_words(self) -> tuple[TranscribedWord, ...]:
         """Return its words, which are in the segments if not beside them."""
-        return self.words or tuple(word for each in self.segments for word in each.words)
+        return self.words or tuple(
+            word for each in self.segments or () for word in each.words or ()
+        )

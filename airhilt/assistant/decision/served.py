@@ -67,7 +67,7 @@ class ServedAssistant:
 
     def _begin(self) -> None:
         self._worker = self._create()
-        self._t_ns = 0
+        self._t_ns: int = 0
         self._known: dict[str, Part] = {}
         """Last message that was given, by what it is of."""
         self._told: dict[str, dict[str, Advisory]] = {}

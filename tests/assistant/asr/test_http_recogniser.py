@@ -131,7 +131,8 @@ def test_what_a_service_does_not_tell_is_sure() -> None:
     assert hear(Asked({"text": "Climb, flight level 350."})) == Recognised(
         "climb flight level 350", (), 1.0
     )
-    assert hear(Asked({"text": ""})) == Recognised("", (), 1.0)
+    none = {"text": "", "words": None, "segments": None, "confidence": None}
+    assert hear(Asked(none)) == Recognised("", (), 1.0)
 
 
 def test_a_byte_order_mark_does_no_harm() -> None:

@@ -24,6 +24,7 @@ from airhilt.messages import Transcript
 from airhilt.record import read_log
 from airhilt.voices.engines.espeak import Espeak
 from paths import DATA
+from served_engines import served
 from services import nobody
 
 NEEDED = ("faster_whisper", "multipart", "openai")
@@ -113,6 +114,28 @@ def test_the_client_library_of_openai_hears_the_same_of_that_server(server: Serv
     assert by_library == by_airhilt
     assert found.words is not None
     assert "cleared to land" in found.text.lower()
+
+
+def test_the_client_library_of_openai_speaks_with_airhilts_own_services() -> None:
+    from openai import OpenAI
+
+    voice = Espeak()
+    with served("asr", "embedded") as asr, served("tts", "espeak") as tts:
+        with OpenAI(base_url=asr.removesuffix("/audio/transcriptions"), api_key="none") as client:
+            found = client.audio.transcriptions.create(
+                file=("call.wav", encode_wav(speech()), "audio/wav"),
+                model="embedded",
+                response_format="verbose_json",
+                timestamp_granularities=["word"],
+                extra_headers={"X-Callsigns": "AAL123,DAL456"},
+            )
+        with OpenAI(base_url=tts.removesuffix("/audio/speech"), api_key="none") as client:
+            spoken = client.audio.speech.create(
+                model="espeak", input=SAID, voice="TOWER", response_format="wav"
+            )
+    assert "american one two three" in found.text
+    assert found.words
+    assert spoken.content == encode_wav(voice.synthesise(SAID, voice.voice_of("TOWER")))
 
 
 def test_a_model_that_is_not_there_is_told_in_the_words_of_the_server(server: Server) -> None:

@@ -119,7 +119,7 @@ def understood(answer: Transcription) -> Recognised:
     """Return an answer in the form of transcripts."""
     given = list(_whole_words(answer))
     words = canonical(given or [(answer.text, 1.0)])
-    by_model = [math.exp(each.avg_logprob) for each in answer.segments if each.avg_logprob]
+    by_model = [math.exp(each.avg_logprob) for each in answer.segments or () if each.avg_logprob]
     confidence = answer.confidence
     if confidence is None:
         by_word = float(np.mean([each for _, each in words])) if words else 1.0
@@ -154,7 +154,7 @@ def _confidence(word: TranscribedWord, answer: Transcription) -> float:
     begin_s = 0.0 if word.start is None else word.start
     sure = [
         each.avg_logprob
-        for each in answer.segments
+        for each in answer.segments or ()
         if each.avg_logprob is not None and (each.start or 0.0) <= begin_s
     ]
     return math.exp(sure[-1]) if sure else 1.0
