@@ -40,6 +40,8 @@ class ServedAssistant:
 
     def __init__(self, create: Callable[[], Worker]) -> None:
         self._create = create
+        self._t_ns = 0
+        """Time of the last request."""
         self._begin()
 
     def answer(self, request: AssistantRequest) -> AssistantAnswer:
@@ -67,7 +69,6 @@ class ServedAssistant:
 
     def _begin(self) -> None:
         self._worker = self._create()
-        self._t_ns: int = 0
         self._known: dict[str, Part] = {}
         """Last message that was given, by what it is of."""
         self._told: dict[str, dict[str, Advisory]] = {}
