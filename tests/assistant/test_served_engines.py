@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
 import httpx
 import numpy as np
 import pytest
 
+from airhilt import Scenario, run
 from airhilt.assistant.asr.engine import Call
 from airhilt.assistant.asr.engines.http import HttpAsr
 from airhilt.assistant.service_check import check_service
@@ -75,3 +78,19 @@ def test_the_words_of_an_engine_that_fails_reach_the_client() -> None:
         assert "ts_ms: Input should be greater than or equal to 0" in answer.json()["detail"]
         with pytest.raises(VisionError, match="HTTP status 404: 'Not Found'"):
             HttpDetector(f"{url}/no/detections").detect(np.zeros((48, 64, 3), np.uint8))
+
+
+def test_a_served_assistant_warns_in_a_run_as_soon_as_it_is_asked(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    options: dict[str, Any] = {"latency": "fixed", "speech": False, "cameras": False}
+    alone = run(encounter, out=tmp_path / "alone", **options).summary
+    with served("decision", "reference") as url:
+        for name in ("once", "again"):
+            asked = run(encounter, out=tmp_path / name, assistant=url, **options).summary
+            assert asked.conflict_outcome == alone.conflict_outcome
+            assert [each.severity for each in asked.advisories] == [
+                each.severity for each in alone.advisories
+            ]
+            assert alone.t_first_warning_s is not None
+            assert asked.t_first_warning_s == pytest.approx(alone.t_first_warning_s, abs=1.5)
