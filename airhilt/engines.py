@@ -109,6 +109,9 @@ class Engine(Generic[T_co]):
     is_remote
         True if it asks a program elsewhere, which may answer differently another time: a replay
         takes its results from the record.
+    probe
+        Asks a program elsewhere one thing before a run, and raises an `AirhiltError` if it does not
+        answer as it must; it is given what `create` is.
     configuration
         Model of its configuration, whose fields all have defaults; None: it has none. For decision
         engines, ``--assistant-config`` gives the values.
@@ -123,6 +126,7 @@ class Engine(Generic[T_co]):
     usage: str = ""
     requires: tuple[Requirement, ...] = ()
     is_remote: bool = False
+    probe: Callable[[str], None] = lambda _: None
     configuration: type[BaseModel] | None = None
 
     def configured(self, given: Mapping[str, Any] | None) -> BaseModel | None:

@@ -29,10 +29,13 @@ class AirhiltError(Exception):
     is_of_machine
         True if the cause lies in the machine, not in the input: a process was killed, a service
         does not answer, a disk is full.
+    is_passing
+        True if the next attempt may succeed: a worker goes on without this one result.
     """
 
     exit_code = 2
     is_of_machine = False
+    is_passing = False
 
 
 class RunStopped(AirhiltError):
@@ -121,6 +124,17 @@ class VisionError(AirhiltError):
 
 class LanguageModelError(AirhiltError):
     """A language model does not answer, refuses, or is not at the address that was given."""
+
+
+@contextmanager
+def keeping_passing(missed: list[str]) -> Iterator[None]:
+    """Append the text of an error that is passing to a list; other errors are raised."""
+    try:
+        yield
+    except AirhiltError as error:
+        if not error.is_passing:
+            raise
+        missed.append(str(error))
 
 
 def is_of_machine(error: BaseException) -> bool:

@@ -7,7 +7,6 @@ environment.
 from __future__ import annotations
 
 import json
-import os
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,7 +15,7 @@ from typing import Any, Literal, Protocol, TypeVar, runtime_checkable
 from pydantic import BaseModel, Field, ValidationError
 
 from airhilt.errors import AirhiltError, LanguageModelError, first_problem
-from airhilt.host.services import HttpService, without_key, without_user
+from airhilt.host.services import MOST_FAILURES, HttpService, key_of, without_key, without_user
 from airhilt.messages import ModelExchange
 
 Answer = TypeVar("Answer", bound=BaseModel)
@@ -26,8 +25,6 @@ MAXIMUM_BYTES = 1_000_000
 """Size of the largest answer."""
 MOST_TOKENS = 1_024
 """Length of the longest answer, in tokens, with what a model thinks before it answers."""
-MOST_FAILURES = 3
-"""Number of questions in a row without a usable answer after which a model is asked no more."""
 Dialect = Literal["json_schema", "json_object"]
 """Ways to ask for JSON of a schema: OpenAI's, and that of llama-cpp-python."""
 _PATH = "/chat/completions"
@@ -86,7 +83,7 @@ class LanguageModel:
         self.name = settings.model
         self._settings = settings
         self._url = endpoint(settings.url)
-        self._key = _key()
+        self._key = key_of(KEY_VARIABLE, "language model", LanguageModelError)
         self._dialect: Dialect = "json_schema"
         self._failures = 0
         self._service(settings.deadline_s)
@@ -159,11 +156,11 @@ class LanguageModel:
 
     def _post(self, request: Mapping[str, Any], timeout_s: float) -> bytes:
         body = json.dumps(request).encode()
-        return self._service(timeout_s).post(body, "application/json", key=self._key)
+        return self._service(timeout_s).post(body, "application/json")
 
     def _service(self, timeout_s: float) -> HttpService:
         return HttpService(
-            "language model", self._url, timeout_s, MAXIMUM_BYTES, LanguageModelError
+            "language model", self._url, timeout_s, MAXIMUM_BYTES, LanguageModelError, self._key
         )
 
     def _content(self, data: bytes) -> str:
@@ -207,14 +204,3 @@ def endpoint(url: str) -> str:
         )
     base = url.rstrip("/")
     return base if base.endswith(_PATH) else base + _PATH
-
-
-def _key() -> str:
-    """Return the key of the endpoint; empty if there is none. An error does not show it."""
-    key = os.environ.get(KEY_VARIABLE, "").strip()
-    if not all("!" <= character <= "~" for character in key):
-        raise LanguageModelError(
-            f"language model: the key in {KEY_VARIABLE} has blanks or letters that are not ASCII; "
-            "expected a key in one word"
-        )
-    return key

@@ -186,7 +186,7 @@ class RemoteWorker:
             Output(output.key, part, output.t_out_ns, output.attachment)
             for output, part in zip(header.outputs, payloads, strict=True)
         )
-        return Reply(outputs, header.compute_s, header.wake_ns)
+        return Reply(outputs, header.compute_s, header.wake_ns, header.missed)
 
     def _require_sizes(self, header: StepReply) -> None:
         """Complain about an output that is larger than what a run takes on its key."""

@@ -48,6 +48,12 @@ class RunContext:
             Status(t_ns=self.director.now_ns, modality=modality, state=state, cause=cause),
         )
 
+    def miss_step(self, worker: str, cause: str) -> None:
+        """Go on without the result of one step of a worker, and tell everybody."""
+        cause = readable(cause)
+        self.event("step_missed", worker, cause)
+        self.observer.notice(f"no result of {worker!r} at {self.now_s:.1f} s: {cause}")
+
     def lose_modality(
         self,
         modality: Modality,

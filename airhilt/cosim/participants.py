@@ -78,7 +78,7 @@ def connect(
     BusError
         A program did not attach in time.
     SpeechError, VisionError
-        An engine cannot be loaded.
+        An engine cannot be loaded, or a service does not answer as it must.
     WorkerError
         A worker is none, cannot be told from another, or is not what the options or the record
         ask for.
@@ -109,8 +109,11 @@ def connect(
     if recorded.is_replay:
         _require_no_service(made, options)
     else:
-        for sentence in other_machines(options, engines_in_use(options, (), made)):
+        used = engines_in_use(options, (), made)
+        for sentence in other_machines(options, used):
             notice(sentence)
+        for each in used:
+            each.engine.probe(each.argument)
     workers = [limited(worker, options.given_modalities) for worker in (*workers, *made)]
     workers += equipment_of(setup.scenario, [worker.description.name for worker in workers])
     require_different_names([*(each.description.name for each in workers), *programs])

@@ -216,7 +216,7 @@ def _worker(
         failure = latencies.unfinished[name].seq, latencies.losses[name].cause
     given = [_given(folder, logged) for logged in log if logged.publisher == name]
     outputs, wakes_ns = latencies.outputs.get(name, {}), latencies.wakes_ns.get(name, {})
-    return ReplayedWorker(given, outputs, wakes_ns, failure)
+    return ReplayedWorker(given, outputs, wakes_ns, latencies.missed.get(name, {}), failure)
 
 
 def _given(folder: RunFolder, logged: Logged) -> Output:
@@ -283,6 +283,8 @@ class ReplayedWorker:
         Number of outputs that each step gave.
     wakes_ns
         Time at which each step asked to be called again.
+    missed
+        Why steps had no result for an input, of those that had not all.
     failure
         The step in which it was lost, and why; None if it was lost between steps or not at all.
     """
@@ -292,11 +294,13 @@ class ReplayedWorker:
         given: Sequence[Output],
         outputs: dict[int, int],
         wakes_ns: dict[int, int | None],
+        missed: dict[int, str],
         failure: tuple[int, str] | None,
     ) -> None:
         self._given = deque(given)
         self._outputs = outputs
         self._wakes_ns = wakes_ns
+        self._missed = missed
         self._failure = failure
 
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> StepDone:  # noqa: ARG002
@@ -305,7 +309,7 @@ class ReplayedWorker:
             return StepDone(failure=WorkerLost(self._failure[1]))
         count = min(self._outputs.get(seq, 0), len(self._given))
         outputs = tuple(self._given.popleft() for _ in range(count))
-        return StepDone(Reply(outputs, 0.0, self._wakes_ns.get(seq)))
+        return StepDone(Reply(outputs, 0.0, self._wakes_ns.get(seq), self._missed.get(seq, "")))
 
 
 class ReplayedRadio:

@@ -205,6 +205,7 @@ class Simulation:
             setup.sound,
             setup.scenario.radio.words_per_minute,
             partial(context.lose_modality, "radio", "radio_lost", "radio"),
+            failed=lambda cause: observer.notice(f"asks the voices again: {cause}"),
         )
         self._radio = self._make_radio(stations)
         self._world.radio = self._radio
@@ -461,6 +462,7 @@ class Simulation:
                 },
                 "too_slow": self._pool.too_slow(),
                 "inputs_dropped": self._pool.inputs_dropped(),
+                "steps_missed": self._pool.steps_missed(),
                 "messages_dropped": self._programs.dropped,
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
                 "cpu_s": used_s,
@@ -501,6 +503,8 @@ class Simulation:
     def _step_done(self, record: StepRecord) -> None:
         self._latency_log.step(record)
         self._collector.step(record)
+        if record.missed:
+            self._context.miss_step(record.worker, record.missed)
 
     def _worker_lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
         """Go on without a worker."""

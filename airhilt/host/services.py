@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import ipaddress
+import json
+import os
 import re
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 from urllib.parse import urlsplit
 
@@ -21,6 +24,10 @@ USAGE = "the address of a service"
 """Words for such an engine where error messages list what may be written."""
 QUOTED_LENGTH = 200
 """Characters of an error answer that the error message quotes."""
+MOST_FAILURES = 3
+"""Number of requests in a row without a usable answer after which a service is asked no more."""
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+"""Bytes that some programs write before UTF-8; a reader of JSON may ignore them (RFC 8259, 8.1)."""
 
 
 def is_service(engine: str) -> bool:
@@ -39,6 +46,8 @@ class HttpService:
         Wall time for connecting, for each part of an answer, and for all of it.
     maximum_bytes
         Size of the largest answer that is accepted.
+    key
+        Bearer token of the requests; no error shows it. Empty: none.
 
     Raises
     ------
@@ -53,6 +62,7 @@ class HttpService:
         timeout_s: float,
         maximum_bytes: int,
         failure: type[AirhiltError],
+        key: str = "",
     ) -> None:
         if "@" in _authority(url):
             raise failure(
@@ -68,13 +78,28 @@ class HttpService:
         self._timeout_s = timeout_s
         self._maximum_bytes = maximum_bytes
         self._failure = failure
+        self._key = key
+        self._failures = 0
+        """Failed attempts since the last answer."""
+
+    @contextmanager
+    def attempt(self) -> Iterator[None]:
+        """Count a failed attempt: its error is passing unless it is the third in a row."""
+        try:
+            yield
+        except AirhiltError as error:
+            self._failures += 1
+            error.is_passing = self._failures < MOST_FAILURES
+            if not error.is_passing:
+                error.args = (f"{error} ({MOST_FAILURES} times in a row)",)
+            raise
+        self._failures = 0
 
     def post(
         self,
         body: bytes,
         content_type: str,
         headers: Mapping[str, str] | None = None,
-        key: str = "",
     ) -> bytes:
         """Return the answer to a request.
 
@@ -82,8 +107,6 @@ class HttpService:
         ----------
         headers
             Further headers of the request.
-        key
-            Bearer token of the request; no error shows it. Empty: none.
 
         Raises
         ------
@@ -96,7 +119,7 @@ class HttpService:
             **(headers or {}),
             "Content-Type": content_type,
             "Accept-Encoding": "identity",
-            **({"Authorization": f"Bearer {key}"} if key else {}),
+            **({"Authorization": f"Bearer {self._key}"} if self._key else {}),
         }
         until_s = time.monotonic() + self._timeout_s
         # The certificates take time to load.
@@ -120,12 +143,14 @@ class HttpService:
             ) from None
         if answer.status_code != 200:
             # The key first: half of it would not be found any more.
-            text = without_key(content.decode("utf-8", "replace"), key)
-            quoted = text[:QUOTED_LENGTH].strip()
+            text = without_key(content.decode("utf-8", "replace"), self._key)
+            quoted = _said(text)[:QUOTED_LENGTH].strip()
+            to = answer.headers.get("Location")
             raise self.error(
                 f"answered with HTTP status {answer.status_code}"
+                f"{f' (go to {to[:QUOTED_LENGTH]!r})' if to else ''}"
                 f"{f': {quoted!r}' if quoted else ''}",
-                "200",
+                "200; redirects are not followed" if to else "200",
             )
         return content
 
@@ -153,9 +178,10 @@ class HttpService:
         from pydantic import ValidationError  # Not at the top: the help of the program needs none.
 
         try:
-            return model.model_validate_json(data)
+            return model.model_validate_json(data.removeprefix(BYTE_ORDER_MARK))
         except ValidationError as error:
-            what = f"answered {data[:60]!r}: {first_problem(error)}"
+            text = without_key(data.decode("utf-8", "replace"), self._key)
+            what = f"answered {text[:60]!r}: {first_problem(error)}"
             raise self.error(what, expected) from None
 
     def error(self, what: str, expected: str) -> AirhiltError:
@@ -163,6 +189,35 @@ class HttpService:
         error = self._failure(f"{self.subject}: {self.url} {what}; expected {expected}")
         error.is_of_machine = True
         return error
+
+
+def _said(text: str) -> str:
+    """Return the sentence in an error answer of OpenAI's API or of FastAPI; otherwise the text."""
+    try:
+        answer = json.loads(text)
+    except (ValueError, RecursionError):
+        return text
+    for name in ("error", "detail", "message"):
+        if isinstance(answer, dict) and name in answer:
+            answer = answer[name]
+    return answer if isinstance(answer, str) else text
+
+
+def key_of(variable: str, subject: str, failure: type[AirhiltError]) -> str:
+    """Return the key of a service from the environment; empty if there is none.
+
+    Raises
+    ------
+    AirhiltError
+        The key can be none; the error does not show it.
+    """
+    key = os.environ.get(variable, "").strip()
+    if not all("!" <= character <= "~" for character in key):
+        raise failure(
+            f"{subject}: the key in {variable} has blanks or letters that are not ASCII; expected "
+            "a key in one word"
+        )
+    return key
 
 
 def without_key(text: str, key: str) -> str:

@@ -142,6 +142,7 @@ EventKind = Literal[
     "no_response",
     "controller_reacts",
     "controller_silent",
+    "step_missed",
     "worker_lost",
     "radio_lost",
     "cameras_lost",

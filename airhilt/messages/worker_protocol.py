@@ -102,6 +102,7 @@ class StepReply(Part):
     wake_ns: Nanoseconds | None = Field(
         default=None, description="call again at this time even without inputs"
     )
+    missed: str = Field(default="", description="why an input has no result; empty if all have one")
 
 
 def parts_of(payload: bytes, sizes: Sequence[int]) -> list[bytes]:

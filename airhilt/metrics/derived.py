@@ -194,6 +194,13 @@ DERIVED = (
         _sum_of("inputs_dropped"),
     ),
     Derived(
+        "steps_missed",
+        "int64",
+        "steps of workers without a result for an input, such as a call about which a service has "
+        "failed",
+        _sum_of("steps_missed"),
+    ),
+    Derived(
         "messages_dropped",
         "int64",
         "messages of programs without grants that did not count: too large, too many, or lost on "

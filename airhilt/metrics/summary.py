@@ -572,6 +572,11 @@ class Summary(_Part):
         "times as long as it declares",
     )
     inputs_dropped: dict[str, int]
+    steps_missed: dict[str, int] = Field(
+        default_factory=dict,
+        description="steps without a result for an input, such as a call about which a service "
+        "has failed, by worker; workers without any are left out",
+    )
     messages_dropped: dict[str, int] = Field(
         default_factory=dict,
         description="messages of programs without grants that did not count because they were too "

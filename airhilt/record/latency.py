@@ -28,12 +28,13 @@ class LatencyLog:
 
     def step(self, record: StepRecord) -> None:
         """Write a step."""
+        missed = f', "missed": {json.dumps(record.missed)}' if record.missed else ""
         self._write(
             f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
             f'"t_start_ns": {record.t_start_ns}, "latency_ns": {record.latency_ns}, '
             f'"compute_s": {record.compute_s!r}, "outputs": {record.outputs}, '
             f'"wake_ns": {"null" if record.wake_ns is None else record.wake_ns}, '
-            f'"finished": {"true" if record.finished else "false"}}}\n'
+            f'"finished": {"true" if record.finished else "false"}{missed}}}\n'
         )
 
     def lost(self, worker: str, t_ns: int, cause: str) -> None:
@@ -79,6 +80,8 @@ class RecordedLatencies:
     latencies_ns: dict[str, dict[int, int]] = field(default_factory=dict)
     outputs: dict[str, dict[int, int]] = field(default_factory=dict)
     wakes_ns: dict[str, dict[int, int | None]] = field(default_factory=dict)
+    missed: dict[str, dict[int, str]] = field(default_factory=dict)
+    """Why steps had no result for an input; steps that had all are left out."""
     losses: dict[str, Loss] = field(default_factory=dict)
     unfinished: dict[str, UnfinishedStep] = field(default_factory=dict)
     """The step that each worker had begun when it was lost, or when the run ended."""
@@ -132,6 +135,8 @@ def _take(row: dict[str, Any], recorded: RecordedLatencies) -> None:
     recorded.latencies_ns.setdefault(worker, {})[seq] = row["latency_ns"]
     recorded.outputs.setdefault(worker, {})[seq] = row["outputs"]
     recorded.wakes_ns.setdefault(worker, {})[seq] = row["wake_ns"]
+    if "missed" in row:
+        recorded.missed.setdefault(worker, {})[seq] = str(row["missed"])
     if not row["finished"]:
         due_ns = row["t_start_ns"] + row["latency_ns"]
         recorded.unfinished[worker] = UnfinishedStep(seq, due_ns)

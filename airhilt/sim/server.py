@@ -30,6 +30,8 @@ class StepRecord(NamedTuple):
     wake_ns: int | None = None
     """Time at which the worker asked to be called again; None if it did not."""
     finished: bool = True
+    missed: str = ""
+    """Why an input has no result; empty if all have one."""
 
 
 class Server:
@@ -59,6 +61,8 @@ class Server:
         self.dropped: Counter[str] = Counter()
         self.offered: Counter[str] = Counter()
         self.latencies_ns = array("q")
+        self.missed = 0
+        """Number of steps in which an input has no result."""
         self.is_lost = False
         self.in_hand: StepRecord | None = None
         """Step that is not finished yet."""
@@ -165,7 +169,9 @@ class Server:
             outputs=len(reply.outputs),
             wake_ns=reply.wake_ns,
             finished=True,
+            missed=reply.missed,
         )
+        self.missed += bool(reply.missed)
         self.latencies_ns.append(done.latency_ns)
         self._done(done)
         self.in_hand = None

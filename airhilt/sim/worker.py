@@ -103,6 +103,8 @@ class Reply:
     outputs: tuple[Output, ...]
     compute_s: float
     wake_ns: int | None = None
+    missed: str = ""
+    """Why an input has no result; empty if all have one."""
 
 
 class Pending(Protocol):

@@ -116,6 +116,8 @@ class Guard:
         token = self._address.token
         if not token or _is_same(request.cookies.get(COOKIE, ""), token):
             return None
+        if _is_same(request.headers.get("authorization", ""), f"Bearer {token}"):
+            return None  # A program, not a browser.
         if not _is_same(request.query_params.get("token", ""), token):
             return self._refuse("no token, or a wrong one; open the address that was printed")
         if scope["type"] == "websocket":

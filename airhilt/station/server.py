@@ -47,8 +47,9 @@ class _Interruptible:
 class _Bounded:
     """Application that answers 413 to a request with a large body, and reads no more of it."""
 
-    def __init__(self, app: ASGIApp) -> None:
+    def __init__(self, app: ASGIApp, largest_bytes: int) -> None:
         self._app = app
+        self._largest_bytes = largest_bytes
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         received_bytes = 0
@@ -57,8 +58,8 @@ class _Bounded:
             nonlocal received_bytes
             message = await receive()
             received_bytes += len(message.get("body", b""))
-            if received_bytes > LARGEST_MESSAGE_BYTES:
-                what = f"the body of the request has more than {LARGEST_MESSAGE_BYTES:,} bytes"
+            if received_bytes > self._largest_bytes:
+                what = f"the body of the request has more than {self._largest_bytes:,} bytes"
                 raise HTTPException(413, what, {"Connection": "close"})
             return message
 
@@ -73,6 +74,7 @@ def serve(
     notice: Callable[[str], None],
     browser: bool = True,
     is_over: Callable[[], bool] | None = None,
+    largest_bytes: int = LARGEST_MESSAGE_BYTES,
 ) -> None:
     """Serve an application to browsers until it is interrupted, or nobody needs it any more.
 
@@ -86,6 +88,8 @@ def serve(
         True opens the URL in the user's browser.
     is_over
         Says, ten times a second, if nobody needs the server any more; None: it always is.
+    largest_bytes
+        Greatest size of the body of a request.
 
     Raises
     ------
@@ -95,7 +99,7 @@ def serve(
     listening = address.bound()
     url = address.url(listening.getsockname()[1])
     config = uvicorn.Config(
-        Guard(_Bounded(_Interruptible(app)), address, notice),
+        Guard(_Bounded(_Interruptible(app), largest_bytes), address, notice),
         log_level="warning",
         access_log=False,
         lifespan="off",

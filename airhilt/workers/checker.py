@@ -186,6 +186,8 @@ def _wrong_step(description: WorkerDescription, t_ns: int, step: Step) -> Iterat
             f"worker {description.name!r} asks at {t_ns} ns to be called again at {step.wake_ns} "
             "ns; expected a later time"
         )
+    if step.missed:
+        yield f"worker {description.name!r} has no result of an input: {step.missed}"
     for output in step.outputs:
         yield from _wrong_output(description, t_ns, output)
 

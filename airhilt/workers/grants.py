@@ -90,5 +90,6 @@ def _answer(name: str, worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes
             for output in step.outputs
         ),
         wake_ns=step.wake_ns,
+        missed=step.missed,
     )
     return b"".join(output.payload for output in step.outputs), header.model_dump_json().encode()

@@ -162,6 +162,10 @@ class WorkerPool:
             for key, count in sorted(server.dropped.items())
         }
 
+    def steps_missed(self) -> dict[str, int]:
+        """Return how many steps had no result for an input, by worker."""
+        return {name: server.missed for name, server in self.servers.items() if server.missed}
+
     def latency_sources(self) -> dict[str, str]:
         """Return the latency sources of the workers, by modality."""
         return {stage: " and ".join(sorted(texts)) for stage, texts in self._sources.items()}

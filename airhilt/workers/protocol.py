@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from airhilt.errors import WorkerError, first_line, is_of_machine, shown
+from airhilt.errors import WorkerError, first_line, is_of_machine, keeping_passing, shown
 from airhilt.messages import WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, StepDone, WorkerLost
 
@@ -24,6 +24,8 @@ class Step:
 
     outputs: tuple[Output, ...] = ()
     wake_ns: int | None = None
+    missed: str = ""
+    """Why an input has no result; empty if all have one. The run goes on, and tells it."""
 
 
 class Worker(Protocol):
@@ -70,10 +72,15 @@ def described(worker: Worker) -> WorkerDescription:
 
 
 def timed_step(worker: Worker, t_ns: int, inputs: Sequence[Input]) -> tuple[Step, float]:
-    """Run one step; return its result, as yet unchecked, and the wall time in s."""
+    """Run one step; return its result, as yet unchecked, and the wall time in s.
+
+    An error that is passing costs the result of the step, and not the worker.
+    """
     begun = time.perf_counter()
-    step = worker.step(t_ns, inputs)
-    return step, time.perf_counter() - begun
+    missed: list[str] = []
+    with keeping_passing(missed):
+        return worker.step(t_ns, inputs), time.perf_counter() - begun
+    return Step(missed=missed[0]), time.perf_counter() - begun
 
 
 def checked(name: str, step: Any) -> Step:
@@ -91,7 +98,7 @@ def checked(name: str, step: Any) -> Step:
     """
     if problem := _problem_of(step):
         raise WorkerError(f"worker {name!r} {problem}")
-    return Step(tuple(step.outputs), step.wake_ns)
+    return Step(tuple(step.outputs), step.wake_ns, step.missed)
 
 
 def _problem_of(step: Any) -> str:
@@ -103,6 +110,8 @@ def _problem_of(step: Any) -> str:
         return f"returned a Step whose outputs are {outputs}; expected a tuple of {OUTPUT}"
     if not _is_time(step.wake_ns):
         return f"returned a Step with wake_ns {shown(step.wake_ns)}; expected {TIME}"
+    if not isinstance(step.missed, str):
+        return f"returned a Step with missed {shown(step.missed)}; expected a str"
     for output in step.outputs:
         if not isinstance(output, Output):
             return f"returned {shown(output)} among its outputs; expected {OUTPUT}"
@@ -154,4 +163,4 @@ class LocalWorker:
             step = checked(name, result)
         except WorkerError as error:
             return StepDone(failure=error)
-        return StepDone(Reply(step.outputs, compute_s, step.wake_ns))
+        return StepDone(Reply(step.outputs, compute_s, step.wake_ns, step.missed))

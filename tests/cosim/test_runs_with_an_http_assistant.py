@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import runpy
 import threading
-from http.server import HTTPServer
+from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from airhilt import Scenario
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.cli.commands.rescore import COMMAND
 from airhilt.cosim.replay import replay, rescore
+from airhilt.errors import WorkerError
 from airhilt.messages import Event, Severity
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
@@ -100,15 +101,26 @@ def test_who_says_what_cannot_be_known_has_warned_nobody_of_the_conflict(
 def test_a_service_that_fails_is_a_lost_worker_and_the_run_goes_on(
     encounter: Scenario, tmp_path: Path
 ) -> None:
-    down = airhilt.run(encounter, out=tmp_path / "down", assistant=nobody(), **OPTIONS)
-    assert down.summary.modalities["decision"] == "lost"
-    assert down.summary.outcome == "finished"
-    assert replay(down.folder).identical
+    given = iter([b'{"advisories": []}'] * 3)  # The first is to the probe.
 
-    with service(answering(b'{"advisories": [{"id": "x"}]}')) as url:
+    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        answering(next(given, b'{"advisories": [{"id": "x"}]}'))(handler, body)
+
+    with service(answer) as url:
         invalid = airhilt.run(encounter, out=tmp_path / "invalid", assistant=url, **OPTIONS)
     assert invalid.summary.modalities["decision"] == "lost"
+    assert invalid.summary.steps_missed == {"decision": 2}
+    assert invalid.summary.outcome == "finished"
     assert not invalid.summary.advisories
+    assert replay(invalid.folder).identical
+
+
+def test_a_service_that_is_down_ends_the_command_before_the_run(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    with pytest.raises(WorkerError, match="is not there"):
+        airhilt.run(encounter, out=tmp_path / "run", assistant=nobody(), **OPTIONS)
+    assert not (tmp_path / "run").exists()
 
 
 def test_scores_are_made_again_though_no_worker_of_the_run_is_there(

@@ -27,16 +27,16 @@ CHANNEL = DATA / "channels" / "echo.onnx"
 
 
 class Voices:
-    """A service that speaks so often, and then no more."""
+    """A service that speaks so often, and then fails so often."""
 
-    def __init__(self, times: int) -> None:
+    def __init__(self, times: int, failures: int = 1_000) -> None:
         self.asked: list[str] = []
-        self._times = times
+        self._fails = range(times, times + failures)
 
     def __call__(self, handler: BaseHTTPRequestHandler, body: bytes) -> None:
         text = json.loads(body)["text"]
         self.asked.append(text)
-        if len(self.asked) > self._times:
+        if len(self.asked) - 1 in self._fails:
             answering(b"hoarse", 500)(handler, body)
         else:
             speech = np.sin(np.arange(800 * len(text)) / 9).astype(np.float32) / 2
@@ -72,8 +72,11 @@ def rows(result: Result, prefix: str, model: Any) -> list[Any]:
 
 
 def lost_after(calls: int, scenario: Scenario, out: Path, **options: Any) -> Result:
-    """Run with voices that fail after so many calls; each line is spoken once beforehand."""
-    voices = Voices(len(scenario.radio.lines) + calls)
+    """Run with voices that fail after so many calls.
+
+    Each line is spoken once beforehand, and so is the probe.
+    """
+    voices = Voices(1 + len(scenario.radio.lines) + calls)
     with service(voices) as url:
         return run(scenario, out=out, latency="fixed", tts=url, **options)
 
@@ -97,6 +100,23 @@ def test_the_run_goes_on_when_the_voices_of_the_radio_fail(short: Scenario, tmp_
     ]
     assert json.loads(event.data)["text"] == statuses[-1]["cause"]
     assert any("hoarse" in text for text in observer.texts)
+
+
+def test_voices_that_fail_twice_are_asked_again(short: Scenario, tmp_path: Path) -> None:
+    observer = Notices()
+    voices = Voices(2 + len(short.radio.lines), failures=2)
+    with service(voices) as url:
+        result = run(
+            short,
+            out=tmp_path / "run",
+            latency="fixed",
+            tts=url,
+            assistant="none",
+            observer=observer,
+        )
+    assert result.summary.modalities["radio"] == "on"
+    assert all(one.samples for one in rows(result, "radio/", Transmission))
+    assert len([text for text in observer.texts if "asks the voices again" in text]) == 2
 
 
 def test_calls_after_that_take_the_time_of_their_words_and_arrive_without_them(
@@ -143,7 +163,8 @@ def test_a_channel_that_fails_is_the_loss_of_the_radio_too(
 
 @pytest.mark.parametrize("calls", [5, 100])
 def test_a_replay_asks_no_service_again(calls: int, short: Scenario, tmp_path: Path) -> None:
-    given = [b'{"text": "Washington Center."}', b"nonsense"]
+    right = b'{"text": "Washington Center."}'
+    given = [right, right, b"nonsense"]  # The first is to the probe.
 
     def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
         answering(given.pop(0) if given else b"")(handler, body)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from airhilt.assistant.asr.engines.http import HttpAsr
+from airhilt.audio.pcm import to_pcm
 from airhilt.audio.wav import decode_wav, encode_wav
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
@@ -58,6 +59,71 @@ def test_a_voice_is_asked_for_a_text_and_gives_a_sound() -> None:
         heard = speak(url)
     assert asked == [{"text": "hello", "voice": "AAL123", "rate": 1.1, "pitch": 0.9}]
     assert np.abs(heard - TONE).max() < 1e-4
+
+
+def wav(rate_hz: int, seconds: float = 1.0, size: int | None = None) -> bytes:
+    """Return a tone of 440 Hz; with another size in its headers, as who streams it writes."""
+    stream = io.BytesIO()
+    with wave.open(stream, "wb") as file:
+        file.setparams((1, 2, rate_hz, 0, "NONE", ""))
+        file.writeframes(to_pcm(tone(rate_hz, seconds)))
+    data = stream.getvalue()
+    if size is None:
+        return data
+    sized = size.to_bytes(4, "little")
+    return data[:4] + sized + data[8:40] + sized + data[44:]
+
+
+def tone(rate_hz: int, seconds: float = 1.0) -> np.ndarray:
+    times_s = np.arange(round(rate_hz * seconds)) / rate_hz
+    return (0.5 * np.sin(2 * np.pi * 440.0 * times_s)).astype(np.float32)
+
+
+@pytest.mark.parametrize("rate_hz", [8_000, 16_000, 22_050, 24_000, 44_100, 48_000])
+def test_speech_of_any_rate_is_the_same_speech(rate_hz: int) -> None:
+    with service(answering(wav(rate_hz), kind="audio/wav")) as url:
+        heard = speak(url)
+    assert len(heard) == 16_000
+    assert np.abs(heard - tone(16_000))[400:-400].max() < 0.01
+
+
+@pytest.mark.parametrize("size", [0x7FFF_FFFF, 0xFFFF_FFFF])
+def test_speech_that_was_streamed_does_not_know_its_length(size: int) -> None:
+    with service(answering(wav(24_000, size=size))) as url:
+        assert len(speak(url)) == 16_000
+
+
+@pytest.mark.parametrize("rate_hz", [1, 4_000, 2_000_000_000])
+def test_a_rate_that_no_speech_has_is_refused(rate_hz: int) -> None:
+    data = wav(16_000)
+    lie = data[:24] + rate_hz.to_bytes(4, "little") + data[28:]
+    with (
+        service(answering(lie)) as url,
+        pytest.raises(SpeechError, match=f"{rate_hz} Hz, mono.*expected 8000 to 96000 Hz"),
+    ):
+        speak(url)
+
+
+def test_openais_form_has_the_model_and_a_voice_of_the_address() -> None:
+    asked: list[dict[str, object]] = []
+
+    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+        asked.append(json.loads(body))
+        answering(wav(24_000))(handler, body)
+
+    with service(answer) as url:
+        address = url.replace("service", "v1/audio/speech")
+        for names in ("", "#kokoro,adam,bella"):
+            voices = HttpTts(address + names)
+            voices.synthesise("hello", voices.voice_of("AAL123"))
+        told = {voices.voice_of(f"AAL{number}").name for number in range(20)}
+    assert asked == [
+        {"model": "tts-1", "input": "hello", "voice": "AAL123", "response_format": "wav",
+         "speed": 1.0},
+        {"model": "kokoro", "input": "hello", "voice": voices.voice_of("AAL123").name,
+         "response_format": "wav", "speed": 1.0},
+    ]  # fmt: skip
+    assert told == {"adam", "bella"}
 
 
 def test_a_recogniser_is_given_a_wav_and_gives_words() -> None:
@@ -113,7 +179,7 @@ class TestServiceThat:
         with (
             service(elsewhere) as other,
             service(redirecting(other)) as url,
-            pytest.raises(SpeechError, match="HTTP status 303"),
+            pytest.raises(SpeechError, match=r"303 \(go to 'http://.*redirects are not followed"),
         ):
             use(url)
         assert asked == []

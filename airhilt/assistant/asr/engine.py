@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 from airhilt.audio.pcm import Audio
 
@@ -44,3 +44,31 @@ class AsrEngine(Protocol):
         airhilt.errors.SpeechError
             The engine has failed.
         """
+
+
+class Call(NamedTuple):
+    """What a receiver knows of a transmission besides its sound."""
+
+    id: str
+    frequency_khz: int
+    t_tx_ns: int
+    """Start of the transmission."""
+    speaker: str | None
+    """Unit whose transmitter was keyed; None: it came over the air."""
+    callsigns: tuple[str, ...]
+    """Callsigns of the roster."""
+
+
+@runtime_checkable
+class RecognisesCalls(Protocol):
+    """Part that a recogniser may have besides: it is told which call it hears."""
+
+    def recognise_call(self, audio: Audio, call: Call) -> Recognised:
+        """Return what was said; it raises what `AsrEngine.recognise` does."""
+
+
+def recognised(engine: AsrEngine, audio: Audio, call: Call) -> Recognised:
+    """Return what an engine makes of a call."""
+    if isinstance(engine, RecognisesCalls):
+        return engine.recognise_call(audio, call)
+    return engine.recognise(audio, call.callsigns)

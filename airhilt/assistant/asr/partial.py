@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import takewhile
 
-from airhilt.assistant.asr.engine import AsrEngine
+from airhilt.assistant.asr.engine import AsrEngine, Call, recognised
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, from_pcm
 from airhilt.messages import (
     PartialTranscript,
@@ -66,10 +66,13 @@ class PartialRecogniser:
                 yield self._partial(on_air, callsigns)
 
     def _partial(self, on_air: _OnAir, callsigns: Sequence[str]) -> PartialTranscript:
-        heard = self._engine.recognise(from_pcm(bytes(on_air.pcm)), callsigns)
+        opened = on_air.opened
+        call = Call(
+            opened.id, opened.frequency_khz, opened.t_tx_ns, opened.keyed_by, tuple(callsigns)
+        )
+        heard = recognised(self._engine, from_pcm(bytes(on_air.pcm)), call)
         words, before = tuple(heard.text.split()), on_air.words
         on_air.words = words
-        opened = on_air.opened
         samples = len(on_air.pcm) // SAMPLE_BYTES
         return PartialTranscript(
             id=opened.id,

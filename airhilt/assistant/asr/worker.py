@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from airhilt.assistant.asr.engine import AsrEngine
+from airhilt.assistant.asr.engine import AsrEngine, Call, recognised
 from airhilt.assistant.asr.partial import PartialRecogniser
 from airhilt.audio.pcm import from_pcm
+from airhilt.errors import keeping_passing
 from airhilt.messages import (
     Briefing,
     DeclaredLatency,
@@ -55,21 +56,18 @@ class AsrWorker:
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Recognise the transmissions that have arrived, and those that go on."""
-        transcripts = [
-            Output(f"asr/{transcript.frequency_khz}", transcript.model_dump_json().encode())
-            for item in inputs
-            if (transcript := self._take(item)) is not None
-        ]
-        partials = () if self._partial is None else self._partial.partials(self._callsigns)
-        return Step(
-            (
-                *transcripts,
-                *(
-                    Output(f"asr/{each.frequency_khz}/partial", each.model_dump_json().encode())
-                    for each in partials
-                ),
-            )
-        )
+        outputs: list[Output] = []
+        missed: list[str] = []
+        for item in inputs:
+            with keeping_passing(missed):
+                if (whole := self._take(item)) is not None:
+                    key = f"asr/{whole.frequency_khz}"
+                    outputs.append(Output(key, whole.model_dump_json().encode()))
+        with keeping_passing(missed):
+            for each in self._partial.partials(self._callsigns) if self._partial else ():
+                key = f"asr/{each.frequency_khz}/partial"
+                outputs.append(Output(key, each.model_dump_json().encode()))
+        return Step(tuple(outputs), missed="; ".join(missed))
 
     def _take(self, item: Input) -> Transcript | None:
         if item.key == "briefing":
@@ -85,7 +83,10 @@ class AsrWorker:
         header = model.model_validate(item.attachment)
         if not header.samples and not item.payload:
             return None  # In a run without sound, its words arrive as text.
-        heard = self._engine.recognise(from_pcm(item.payload), self._callsigns)
+        call = Call(
+            header.id, header.frequency_khz, header.t_tx_ns, header.keyed_by, self._callsigns
+        )
+        heard = recognised(self._engine, from_pcm(item.payload), call)
         transcript = Transcript(
             id=header.id,
             frequency_khz=header.frequency_khz,

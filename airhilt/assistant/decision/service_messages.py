@@ -5,7 +5,7 @@ Times are whole milliseconds since the start of the run (``ts_ms``), as in the A
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
 from pydantic import Field, StringConstraints, model_validator
 
@@ -85,6 +85,7 @@ class TrackSlice(Part):
     track_deg: float
     vertical_rate_fpm: float
     nacp: int
+    nacv: int
 
 
 class FlightContext(Part):
@@ -151,15 +152,3 @@ class AssistantAnswer(Part):
         if twice:
             raise ValueError(f"two advisories with the id {twice[0]!r}; expected one a conflict")
         return self
-
-
-def service_schemas() -> dict[str, Any]:
-    """Return the schemas of what is sent to all services, and of their answers, as one object."""
-    models: dict[str, type[Part]] = {
-        "assistant (request)": AssistantRequest,
-        "assistant (answer)": AssistantAnswer,
-    }
-    return {
-        name: {"title": model.__name__, **model.model_json_schema()}
-        for name, model in models.items()
-    }

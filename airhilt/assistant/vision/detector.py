@@ -47,6 +47,8 @@ class Shot(NamedTuple):
 class PictureMissed(VisionError):
     """A detector has failed with one picture, and may succeed with the next."""
 
+    is_passing = True
+
 
 @runtime_checkable
 class Detector(Protocol):
@@ -65,10 +67,8 @@ class Detector(Protocol):
 
         Raises
         ------
-        PictureMissed
-            The detector has failed with this picture.
         airhilt.errors.VisionError
-            The detector has failed for good.
+            The detector has failed for good, or with this picture if the error `is_passing`.
         """
 
 

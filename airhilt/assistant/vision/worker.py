@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from airhilt.assistant.vision.detector import Detector, Found, PictureMissed, Shot
+from airhilt.assistant.vision.detector import Detector, Found, Shot
 from airhilt.assistant.vision.gating import Gate, SeenPicture
 from airhilt.assistant.vision.shared_looks import SharedLooks
 from airhilt.assistant.vision.tracker import Tracker
+from airhilt.errors import VisionError
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.messages import (
     EXPOSURE_LEFT_OUT,
@@ -61,14 +62,16 @@ class VisionWorker:
         The detections of a picture that the detector has missed say why, and those of an exposure
         that the camera left out say that.
         """
-        outputs = []
+        outputs, missed = [], ""
         for item in inputs:
             if item.key.endswith("/info"):
                 self._meet(item)
                 continue
             seen = self._look(item)
             outputs.append(Output(f"vision/{seen.camera}", seen.model_dump_json().encode()))
-        return Step(tuple(outputs))
+            if seen.missed != EXPOSURE_LEFT_OUT:
+                missed = missed or seen.missed
+        return Step(tuple(outputs), missed=missed)
 
     def _meet(self, item: Input) -> None:
         info = CameraInfo.model_validate_json(item.payload)
@@ -89,7 +92,9 @@ class VisionWorker:
         mask = self._masks.get(header.camera)
         try:
             found = self._found(header, item, mask)
-        except PictureMissed as missed:
+        except VisionError as missed:
+            if not missed.is_passing:
+                raise
             return seen.model_copy(update={"missed": str(missed)})
         if mask is not None:
             found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]

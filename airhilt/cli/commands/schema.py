@@ -15,14 +15,14 @@ from airhilt.cli.output import tell
 Examples:
   airhilt schema > messages.json
   airhilt schema --scenario > scenario.schema.json
-  airhilt schema --services > services.schema.json
+  airhilt schema --services > services.openapi.json
   airhilt schema --assistant reference
   airhilt schema --sweep > sweep.schema.json
   airhilt schema --experiment > plan.schema.json
 """
 )
 @click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
-@click.option("--services", is_flag=True, help="The schemas of requests to services instead.")
+@click.option("--services", is_flag=True, help="The OpenAPI document of services instead.")
 @click.option(
     "--assistant", metavar="NAME", help="The schema of an assistant's configuration instead."
 )
@@ -39,9 +39,9 @@ def schema(
         )
     document: dict[str, Any]
     if services:
-        from airhilt.assistant.decision.service_messages import service_schemas
+        from airhilt.assistant.services_document import services_document
 
-        document = service_schemas()
+        document = services_document()
     elif assistant is not None:
         from airhilt.engine_families import ASSISTANTS
 

@@ -70,6 +70,10 @@ def worker(
             raise click.UsageError(f"--assistant-config would do nothing for a worker of {kind}")
         settings["configuration"] = read_configuration(assistant_config)
     made = reference_worker(kind, engine, name or kind, **settings)
+    if engine is not None:
+        family = next(each for each in FAMILIES if each.modality == kind)
+        chosen, argument = family.choose(engine)
+        chosen.probe(argument)
     serve(made, connect, run_name, patience, tls)
 
 

@@ -38,5 +38,6 @@ const rows = Object.entries(summary ? summary.latencies : {}).map(([stage, { n, 
 });
 fillTable(byId("latencies"), [["Stage", "text"], ...["n", "p50", "p95", "max"].map((name) => [name, "number"])], rows, { empty: "There is no summary.json to take them from." });
 const dropped = summary && Object.entries(summary.inputs_dropped).map(([name, n]) => `${name} ${n}`).join(", ");
-byId("dropped").textContent = summary ? `Inputs dropped: ${dropped || "none."}` : "";
+const missed = summary && Object.entries(summary.steps_missed || {}).map(([name, n]) => `${name} ${n}`).join(", ");
+byId("dropped").textContent = summary ? `Inputs dropped: ${dropped || "none."}${missed ? ` Steps without a result: ${missed}.` : ""}` : "";
 return { fit: drawHistogram };

@@ -3,7 +3,7 @@
 /** Kinds of events in words, in the order of the filters. */
 const KINDS = {
   radio: "Radio call", transcript: "Transcript", WARNING: "WARNING", CAUTION: "CAUTION", ADVISORY: "ADVISORY", INFO: "INFO", equipment: "Equipment",
-  failure: "Failure", unable: "Unable", pilot_reacts: "Reaction", no_response: "No response", controller_reacts: "Controller reacts", controller_silent: "Controller silent", command: "Command", conflict: "Conflict", worker_lost: "Worker lost", actor_ended: "Actor ended", status: "Modality", run: "Run",
+  failure: "Failure", unable: "Unable", pilot_reacts: "Reaction", no_response: "No response", controller_reacts: "Controller reacts", controller_silent: "Controller silent", command: "Command", conflict: "Conflict", worker_lost: "Worker lost", step_missed: "No result", actor_ended: "Actor ended", status: "Modality", run: "Run",
 };
 const kindOf = (event) => (event.kind === "advisory" ? event.severity : event.kind in KINDS ? event.kind : "run");
 

@@ -8,18 +8,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.signal import resample_poly
 
 from airhilt.audio.pcm import Audio
+from airhilt.audio.resampling import resampled
 from airhilt.engines import Engine, Package
 from airhilt.errors import SpeechError, first_line
 from airhilt.voices.engine import VoiceSpec
 
 MODEL_FILES = ("config.json", "model.pth", "vocab.json", "speakers_xtts.pth")
 """Files of XTTS-v2, as its publisher names them."""
-UP, DOWN = 2, 3
-"""Resampling factors from the 24 kHz of XTTS-v2 (``output_sample_rate`` in its config.json) to
-16 kHz."""
+RATE_HZ = 24_000
+"""Sample rate of XTTS-v2 (``output_sample_rate`` in its config.json)."""
 LANGUAGE = "en"
 
 
@@ -96,8 +95,7 @@ class Coqui:
                     f"voice coqui: cannot speak {text[:60]!r}: {first_line(error)}"
                 ) from None
         samples = np.asarray(spoken["wav"], np.float32).reshape(-1)
-        resampled = resample_poly(samples, UP, DOWN)  # goes beyond the loudest of its samples
-        return np.clip(np.asarray(resampled, np.float32), -1.0, 1.0)
+        return resampled(samples, RATE_HZ)
 
 
 def _fingerprint(folder: Path) -> str:

@@ -15,6 +15,7 @@ from importlib.metadata import version as installed_version
 import numpy as np
 
 from airhilt.audio.pcm import Audio
+from airhilt.audio.resampling import resampled
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
@@ -34,6 +35,8 @@ VARIANTS = ("m1", "m3", "m7", "f2", "f4", "Alex", "Annie", "Andy", "Lee", "steph
 """Timbres that are intelligible over a radio."""
 NORMAL_WORDS_PER_MINUTE = 175
 NORMAL_PITCH = 50
+RATE_HZ = 22_050
+"""Sample rate of espeak-ng."""
 _RATE, _PITCH = 1, 3
 """`espeak_PARAMETER` (espeak-ng, speak_lib.h)."""
 _SYNCHRONOUS, _UTF8 = 2, 1
@@ -116,10 +119,8 @@ class Espeak:
             library.espeak_Synchronize()
         finally:
             library.espeak_Terminate()
-        from scipy.signal import resample_poly  # half a second; nobody has spoken until here
-
         pcm = np.frombuffer(b"".join(blocks), np.int16).astype(np.float32) / 32768.0
-        return np.asarray(resample_poly(pcm, 320, 441), np.float32)
+        return resampled(pcm, RATE_HZ)
 
 
 ENGINE = Engine(

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from airhilt.assistant.vision.detector import Found, PictureMissed, Shot
+from airhilt.assistant.vision.detector import Found, Shot
 from airhilt.assistant.vision.detectors.http import HttpDetector, encode_png
 from airhilt.assistant.vision.gating import Gate
 from airhilt.errors import VisionError
@@ -109,10 +109,8 @@ class TestRequestWithoutAnAnswer:
                 try:
                     detector.detect(PICTURE)
                     told.append("seen")
-                except PictureMissed:
-                    told.append("missed")
                 except VisionError as error:
-                    told.append(f"lost: {error}")
+                    told.append("missed" if error.is_passing else f"lost: {error}")
         return told
 
     def test_costs_the_picture(self) -> None:
@@ -155,6 +153,28 @@ class TestOriginOfAPicture:
         (headers,) = self.headers((64, 48), mask)
         decoded = Image.open(io.BytesIO(base64.b64decode(headers["X-Mask"])))
         assert (np.asarray(decoded.convert("1")) == mask).all()
+
+    def test_the_json_of_the_paper_has_the_same(self) -> None:
+        given: list[dict[str, Any]] = []
+
+        def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
+            given.append(json.loads(body))
+            answering(b'\xef\xbb\xbf{"detections": []}')(handler, body)
+
+        mask = np.zeros((48, 64), dtype=bool)
+        mask[40:, 10:50] = True
+        picture = background(64, 48)
+        with service(answer) as url:
+            detector = HttpDetector(url.replace("service", "v1/detections"))
+            detector.detect_shot(picture, Shot("nose", 1_500_000_000, 5, 7, mask))
+            detector.detect(picture)
+        told, bare = given
+        assert {name: told[name] for name in ("ts_ms", "camera_id", "offset_px")} == {
+            "ts_ms": 1500, "camera_id": "nose", "offset_px": [5, 7],
+        }  # fmt: skip
+        assert base64.b64decode(told["image"]) == encode_png(picture)
+        assert base64.b64decode(told["ego_mask"]) == encode_png(mask)
+        assert bare["ego_mask"] is None
 
     def test_a_tile_has_its_own_offset_and_its_part_of_the_mask(self) -> None:
         mask = np.zeros((100, 1300), dtype=bool)

@@ -486,7 +486,7 @@ class Failing(AudioRadio):
 
 def test_a_call_in_which_the_sound_is_lost_has_no_samples_though_some_were_streamed() -> None:
     lost: list[str] = []
-    air = Air(FallbackRadio(Failing(11.0), 160.0, lambda cause, _: lost.append(cause)))
+    air = Air(FallbackRadio(Failing(11.0), 160.0, lambda cause, _: lost.append(cause), lost.append))
     air.say(10.0, "first", 3.0).say(11.2, "second", 3.0, listens_first=False).run()
     assert lost == ["worn out"]
     assert len(air.chunks("first")) >= 2
@@ -505,7 +505,7 @@ class Mute(Buzzing):
 def test_where_the_voices_fail_a_call_takes_the_time_of_its_words_and_has_no_sound() -> None:
     lost: list[str] = []
     mute = AudioRadio(Mute(), VhfChannel(PROFILES["vhf"]), SEED, RADIO)
-    radio = FallbackRadio(mute, 150.0, lambda cause, _: lost.append(cause))
+    radio = FallbackRadio(mute, 150.0, lambda cause, _: lost.append(cause), lost.append)
     assert radio.has_sound
     for _ in range(2):
         speech, seconds = radio.speak("Tower", "hold short of runway")

@@ -1,97 +1,103 @@
-"""A detector at an address: it takes a PNG picture and answers ``{detections: [...]}``."""
+"""A detector at an address: it takes a picture and answers ``{detections: [...]}``."""
 
 from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from urllib.parse import urlsplit
 
+import numpy as np
 from PIL import Image
-from pydantic import BaseModel, ConfigDict, Field
 
-from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Shot
+from airhilt.assistant.vision.detector import Found, Picture, Shot
+from airhilt.assistant.vision.service_messages import (
+    DetectionAnswer,
+    FoundObject,
+    PictureRequest,
+)
 from airhilt.engines import Engine
 from airhilt.errors import VisionError
-from airhilt.host.services import USAGE, HttpService, is_service
+from airhilt.host.service_headers import NS_PER_MS, ServiceHeaders
+from airhilt.host.services import USAGE, HttpService, is_service, key_of
 from airhilt.imaging.boxes import area
 from airhilt.imaging.masks import Mask
-from airhilt.messages import Box, Confidence, VisibleClass
 
+JSON_PATH = "/detections"
+"""End of the path of services that take the JSON of the AIRHILT paper."""
+KEY_VARIABLE = "AIRHILT_DETECTOR_KEY"
+"""Environment variable with the key of the service; it is sent, and written nowhere."""
 TIMEOUT_S = 10.0
 MAXIMUM_BYTES = 1_000_000
 """Size of the largest answer."""
-MOST_FOUND = 1_000
-"""Largest number of detections in one picture."""
-MOST_FAILURES = 3
-"""Number of requests in a row without an answer that end it."""
 EXPECTED = (
     'JSON such as {"detections": [{"label": "airplane", "confidence": 0.9, '
     '"box": [10, 20, 40, 30]}]}'
 )
 PNG_LEVEL = 1
 """Compression: pictures go to the same machine or the next, so fast comes before small."""
-
-
-class _Detection(BaseModel):
-    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
-    label: VisibleClass
-    confidence: Confidence
-    box: Box
-
-
-class _Answer(BaseModel):
-    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
-    detections: tuple[_Detection, ...] = Field(max_length=MOST_FOUND)
+PROBE = np.zeros((48, 64, 3), np.uint8)
+"""A black picture."""
 
 
 class HttpDetector:
-    """Asks a service that answers POST requests with PNG pictures, 8-bit sRGB.
+    """Asks a service about each picture.
 
-    The answer is JSON such as ``{"detections": [{"label": "airplane", "confidence": 0.9, "box":
-    [10, 20, 40, 30]}]}``, boxes in pixels: left, top, right, bottom.
-
-    Headers say where the picture comes from: ``X-Camera-Id``; ``X-Ts-Ms``, the end of the exposure
-    in ms since the start of the run; ``X-Offset-Px``, left and top of the picture in that of the
-    camera, such as ``0,0``; and ``X-Mask``, a PNG in base64 that is white where the camera's own
-    aircraft may be, if there is such a place.
-
-    A request without an answer loses one picture, and `MOST_FAILURES` of them in a row lose the
-    detector; an invalid answer does so at once.
+    A path that ends with `JSON_PATH` gets a `PictureRequest`, any other a PNG, 8-bit sRGB, with the
+    same in `ServiceHeaders`. The answer is a `DetectionAnswer`, boxes in pixels: left, top, right,
+    bottom.
     """
 
     name = "http"
     threshold = 0.0
 
     def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
-        self._service = HttpService("detector http", url, timeout_s, MAXIMUM_BYTES, VisionError)
-        self._failures = 0
-        """Failed requests since the last answer."""
+        key = key_of(KEY_VARIABLE, "detector http", VisionError)
+        self._service = HttpService(
+            "detector http", url, timeout_s, MAXIMUM_BYTES, VisionError, key
+        )
+        self._takes_json = urlsplit(url).path.endswith(JSON_PATH)
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what the service finds in a picture; see `Detector.detect`."""
-        return self.detect_shot(picture, None)
+        return self.detect_shot(picture, Shot("", 0))
 
-    def detect_shot(self, picture: Picture, shot: Shot | None) -> Sequence[Found]:
+    def detect_shot(self, picture: Picture, shot: Shot) -> Sequence[Found]:
         """Return what the service finds in a picture, and tell it where that comes from."""
-        data = self._post(encode_png(picture), {} if shot is None else headers_of(shot))
-        answer = self._service.parsed(data, _Answer, EXPECTED)
-        placed = [self._placed(each, picture) for each in answer.detections]
+        png, own = encode_png(picture), shot.own_aircraft
+        mask = None if own is None or not own.any() else base64.b64encode(encode_png(own)).decode()
+        ts_ms = shot.t_frame_ns // NS_PER_MS
+        headers = ServiceHeaders(ts_ms=ts_ms, camera_id=shot.camera)
+        if self._takes_json:
+            request = PictureRequest(
+                image=base64.b64encode(png).decode(),
+                ts_ms=ts_ms,
+                camera_id=shot.camera,
+                offset_px=(shot.left, shot.top),
+                ego_mask=mask,
+            )
+            body, content_type = request.model_dump_json().encode(), "application/json"
+        else:
+            at = f"{shot.left},{shot.top}"
+            headers = headers.model_copy(update={"offset_px": at, "mask": mask})
+            body, content_type = png, "image/png"
+        with self._service.attempt():
+            data = self._service.post(body, content_type, headers.encoded())
+            answer = self._service.parsed(data, DetectionAnswer, EXPECTED)
+            placed = [self._placed(each, picture) for each in answer.detections]
         return [found for found in placed if area(found.box)]
 
-    def _post(self, png: bytes, headers: Mapping[str, str]) -> bytes:
-        try:
-            answer = self._service.post(png, "image/png", headers)
-        except VisionError as error:
-            self._failures += 1
-            if self._failures < MOST_FAILURES:
-                raise PictureMissed(str(error)) from None
-            lost = VisionError(f"{error} ({MOST_FAILURES} times in a row)")
-            lost.is_of_machine = error.is_of_machine
-            raise lost from None
-        self._failures = 0
-        return answer
+    def probe(self) -> None:
+        """Let it look at a black picture.
 
-    def _placed(self, each: _Detection, picture: Picture) -> Found:
+        Raises
+        ------
+        VisionError
+            There is no service, or its answer is none.
+        """
+        self.detect(PROBE)
+
+    def _placed(self, each: FoundObject, picture: Picture) -> Found:
         rows, columns = picture.shape[:2]
         left, top, right, bottom = each.box
         if left > right or top > bottom:
@@ -103,18 +109,6 @@ class HttpDetector:
         return Found(each.label, each.confidence, box)
 
 
-def headers_of(shot: Shot) -> dict[str, str]:
-    """Return the headers that tell a service where a picture comes from."""
-    headers = {
-        "X-Camera-Id": shot.camera,
-        "X-Ts-Ms": str(shot.t_frame_ns // 1_000_000),
-        "X-Offset-Px": f"{shot.left},{shot.top}",
-    }
-    if shot.own_aircraft is not None and shot.own_aircraft.any():
-        headers["X-Mask"] = base64.b64encode(encode_png(shot.own_aircraft)).decode()
-    return headers
-
-
 def encode_png(picture: Picture | Mask) -> bytes:
     """Return a picture, or a mask in black and white, as PNG."""
     png = io.BytesIO()
@@ -124,9 +118,10 @@ def encode_png(picture: Picture | Mask) -> bytes:
 
 ENGINE = Engine(
     name="http",
-    summary="service that takes PNG and answers JSON",
+    summary="service that takes PNG or JSON and answers JSON",
     create=HttpDetector,
     takes=is_service,
     usage=USAGE,
     is_remote=True,
+    probe=lambda url: HttpDetector(url).probe(),
 )

@@ -96,15 +96,21 @@ class FallbackRadio:
 
     Calls then take the time of their words and arrive without samples. Their words do not arrive
     either: nobody knows what a recogniser would have made of them. ``lost`` is called once when the
-    backend fails, with the cause, and true if that is of the machine.
+    backend fails, with the cause, and true if that is of the machine. ``failed`` is called with the
+    cause when the voices have failed with a text and are asked for it again.
     """
 
     def __init__(
-        self, backend: RadioBackend, words_per_minute: float, lost: Callable[[str, bool], None]
+        self,
+        backend: RadioBackend,
+        words_per_minute: float,
+        lost: Callable[[str, bool], None],
+        failed: Callable[[str], None],
     ) -> None:
         self._backend = backend
         self._text = TextRadio(words_per_minute)
         self._lost = lost
+        self._failed = failed
         self.is_lost = False
 
     @property
@@ -114,11 +120,14 @@ class FallbackRadio:
 
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
         """Return a text as speech, None without sound, and its duration in s."""
-        if not self.is_lost:
+        while not self.is_lost:
             try:
                 return self._backend.speak(speaker, text)
             except SpeechError as error:
-                self._lose(error)
+                if error.is_passing:
+                    self._failed(str(error))
+                else:
+                    self._lose(error)
         return self._text.speak(speaker, text)
 
     def receive(self, request: SoundRequest) -> bytes:
