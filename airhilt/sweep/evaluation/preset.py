@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from pydantic import JsonValue
@@ -40,6 +40,10 @@ class Choice:
     def has_speech(self) -> bool:
         """True if radio calls are sound."""
         return bool(self.options.get("speech", True))
+
+    def with_at_most(self, seeds: int) -> Choice:
+        """Return the same with no more than a number of seeds."""
+        return replace(self, seeds=min(self.seeds, seeds))
 
     def specification(
         self,

@@ -29,6 +29,8 @@ NEED_CAMERAS = ("S01C", "S02C")
 """Families in which only cameras show the other party."""
 MOST_SEEDS_WITH_CAMERAS = 3
 """Greatest number of seeds of runs with cameras, which take minutes each."""
+MOST_SEEDS_OF_TWINS = 5
+"""Greatest number of seeds of nominal twins and controls, which only the ranking needs."""
 TOLD = ("crew", "controller", "both")
 """Values of the option ``recipients``."""
 CREWS = "crews"
@@ -46,10 +48,10 @@ def specifications(choice: Choice) -> Mapping[str, Specification]:
     families = {name: one.family for name, one in shipped_scenarios().items()}
     seen = [name for name, family in families.items() if family in NEED_CAMERAS]
     others = [name for name, family in families.items() if family not in NEED_CAMERAS]
-    found = _sweeps(choice, WITHOUT_CAMERAS, others, {"cameras": False}) | _ranked(choice, others)
+    found = _sweeps(choice, WITHOUT_CAMERAS, others, {"cameras": False})
+    found |= _ranked(choice.with_at_most(MOST_SEEDS_OF_TWINS), others)
     if choice.has_cameras:
-        few = Choice(min(choice.seeds, MOST_SEEDS_WITH_CAMERAS), choice.options)
-        found |= _sweeps(few, WITH_CAMERAS, seen, {})
+        found |= _sweeps(choice.with_at_most(MOST_SEEDS_WITH_CAMERAS), WITH_CAMERAS, seen, {})
     return found
 
 
