@@ -25,7 +25,7 @@ from paths import DOCS, ROOT, SUPPORT
 from sweep_tables import grid, write_sweep
 
 PAGES = (ROOT / "README.md", *sorted(DOCS.glob("*.md")))
-RUN_PAGES = (ROOT / "README.md", DOCS / "getting-started.md")
+RUN_PAGES = (ROOT / "README.md", DOCS / "README.md", DOCS / "getting-started.md")
 RUN_COMMANDS = ("airhilt", "for", "python examples/")
 LONGEST_S = 300.0
 Cli = Callable[..., subprocess.CompletedProcess[str]]
