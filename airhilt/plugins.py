@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import pkgutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from importlib import import_module
 from importlib.metadata import EntryPoint, EntryPoints, entry_points
 from inspect import get_annotations
@@ -22,6 +22,9 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.host.library import nearest
+
+States = tuple[tuple[str, int], ...]
+"""Folders, each with the time at which it changed."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,7 @@ class Family:
         """Return where the members of AIRHILT are."""
         return [
             EntryPoint(name, f"{self.package}.{name}:{self.attribute}", self.group)
-            for name in _modules(self.package)
+            for name in _modules(_states(import_module(self.package).__path__))
             if not name.startswith("_") and name not in self.not_members
         ]
 
@@ -111,10 +114,10 @@ class Family:
         return [*self.own(), *_declared(self.group)]
 
 
-@cache
-def _modules(package: str) -> tuple[str, ...]:
-    """Return the names of the modules in a package of AIRHILT."""
-    return tuple(found.name for found in pkgutil.iter_modules(import_module(package).__path__))
+@lru_cache
+def _modules(folders: States) -> tuple[str, ...]:
+    """Return the names of the modules in the folders of a package."""
+    return tuple(found.name for found in pkgutil.iter_modules([folder for folder, _ in folders]))
 
 
 def _declared(group: str) -> EntryPoints:
@@ -124,18 +127,22 @@ def _declared(group: str) -> EntryPoints:
     folders in which packages are installed has changed: a package comes and goes with a folder
     of metadata.
     """
-    return _read(group, tuple((folder, _changed_ns(folder)) for folder in sys.path))
+    return _read(group, _states(sys.path))
 
 
 @lru_cache
-def _read(group: str, folders: tuple[tuple[str, int], ...]) -> EntryPoints:
+def _read(group: str, folders: States) -> EntryPoints:
     return _selection(folders)(group=group)
 
 
 @lru_cache(maxsize=1)
-def _selection(_folders: tuple[tuple[str, int], ...]) -> Callable[..., EntryPoints]:
+def _selection(_folders: States) -> Callable[..., EntryPoints]:
     """Return what selects among the entry points of all groups."""
     return entry_points().select
+
+
+def _states(folders: Iterable[str]) -> States:
+    return tuple((folder, _changed_ns(folder)) for folder in folders)
 
 
 def _changed_ns(folder: str) -> int:

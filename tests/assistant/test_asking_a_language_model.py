@@ -35,19 +35,20 @@ class Scripted:
         self.takes_s = 0.0
 
     def __call__(
-        self, subject: str, url: str, timeout_s: float, maximum_bytes: int, failure: Any
+        self, subject: str, url: str, timeout_s: float, maximum_bytes: int, failure: Any, key: str
     ) -> Scripted:
-        assert (subject, maximum_bytes, failure) == (
+        assert (subject, maximum_bytes, failure, key) == (
             "language model",
             1_000_000,
             LanguageModelError,
+            "",
         )
         self.urls.add(url)
         self.timeout_s = timeout_s
         return self
 
-    def post(self, body: bytes, content_type: str, *, key: str) -> bytes:
-        assert (content_type, key) == ("application/json", "")
+    def post(self, body: bytes, content_type: str) -> bytes:
+        assert content_type == "application/json"
         self.asked.append(json.loads(body))
         self.deadlines_s.append(self.timeout_s)
         self.clock_s += self.takes_s

@@ -44,7 +44,7 @@ def test_the_same_seed_gives_the_same_log(first: bytes, brief: Scenario, tmp_pat
 def test_a_viewer_who_comes_late_and_reads_everything_does_not_change_the_log(
     first: bytes, brief: Scenario, tmp_path: Path
 ) -> None:
-    """Of what is published once, it asks for the newest."""
+    """The viewer asks for the newest of what is published once."""
     endpoint = free_endpoint()
     found: list[str] = []
     sessions: list[zenoh.Session] = []
