@@ -21,10 +21,11 @@ from airhilt.host import library
 from airhilt.messages import AdsbReport, Clock
 from airhilt.units import SECOND_NS
 
-BRIDGES = sorted(path.name for path in library.folder("bridges").glob("*.py"))
 LONG_S = 120.0
 """Time that a busy machine may take to start a program."""
 ON_TCP = ("avr.py", "beast.py", "sbs1.py")
+BRIDGES = (*ON_TCP, "asterix.py", "gdl90.py")
+"""Bridges that give out ADS-B reports as bytes."""
 MIDDAY = datetime(2026, 3, 1, 12, 0, 1, 500_000, tzinfo=UTC)
 REPORT = AdsbReport(
     icao24="a1b2c3", callsign="AAL123", latitude_deg=38.9, longitude_deg=-77.0,
