@@ -13,11 +13,12 @@ that read too slowly lose the oldest messages.
 from __future__ import annotations
 
 import math
+import threading
 from typing import Any
 
 from PIL import Image
 
-from airhilt.bus.bridge import WallClock, exiting_on_error, options, relay
+from airhilt.bus.bridge import LAST_S, WallClock, exiting_on_error, options, relay
 from airhilt.errors import BusError, first_line
 from airhilt.messages import (
     ActorTruth,
@@ -265,7 +266,10 @@ def main() -> None:
                 "camera/*/frame": display.show_picture,
             },
         )
-        server.stop()
+        # Programs that do not read would hold up the end of the server.
+        end = threading.Thread(target=server.stop, daemon=True)
+        end.start()
+        end.join(LAST_S)
 
 
 if __name__ == "__main__":

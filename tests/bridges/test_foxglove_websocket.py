@@ -93,6 +93,8 @@ MESSAGES: dict[str, tuple[BaseModel, bytes | None]] = {
 }
 """What the run publishes, and the raw bytes that it is a header of."""
 
+END = Clock(run="run", phase="finished", pace="1x").model_dump_json().encode()
+
 
 class Client:
     """A client of the protocol that subscribes to every topic and decodes it by its own schema.
@@ -151,7 +153,12 @@ def connected(port: int) -> ClientConnection:
     deadline = time.monotonic() + LONG_S
     while True:
         try:
-            return connect(f"ws://127.0.0.1:{port}", subprotocols=[Subprotocol("foxglove.sdk.v1")])
+            return connect(
+                f"ws://127.0.0.1:{port}",
+                subprotocols=[Subprotocol("foxglove.sdk.v1")],
+                ping_interval=None,
+                close_timeout=1,
+            )
         except OSError:
             assert time.monotonic() < deadline
             time.sleep(0.1)
@@ -172,7 +179,7 @@ def heard() -> Iterator[dict[str, list[Any]]]:
                 text = message.model_dump_json().encode()
                 bus.put(key, text if raw is None else raw, None if raw is None else text)
             client.take()
-        bus.put("clock", Clock(run="run", phase="finished", pace="1x").model_dump_json().encode())
+        bus.put("clock", END)
         assert bridge.wait(timeout=LONG_S) == 0
         yield dict(client.heard)
 
@@ -239,6 +246,24 @@ def test_detections_are_boxes_on_the_picture_of_the_same_time(
     assert box.type == line_loop
     assert [(point.x, point.y) for point in box.points] == [(10, 20), (30, 20), (30, 40), (10, 40)]
     assert label.text == "deer 0.75"
+
+
+def test_a_client_that_never_reads_does_not_hold_up_the_end() -> None:
+    port = int(free_endpoint().rsplit(":", 1)[1])
+    sound = bytes(1_000_000)
+    header = TRANSMISSION.model_copy(update={"samples": len(sound) // 2}).model_dump_json()
+    with closing(Bus("run")) as bus:
+        bridge = subprocess.Popen(program(bus.endpoint, port))
+        with connected(port) as connection:
+            client = Client(connection)
+            while not client.heard:
+                bus.put("radio/119100/tx", sound, header.encode())
+                client.take()
+            for _ in range(100):
+                bus.put("radio/119100/tx", sound, header.encode())
+                time.sleep(0.01)
+            bus.put("clock", END)
+            assert bridge.wait(timeout=LONG_S) == 0
 
 
 def test_a_port_that_is_taken_is_one_line_and_exit_code_2() -> None:
