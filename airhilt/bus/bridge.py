@@ -50,7 +50,11 @@ def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
     return parser
 
 
-def relay(given: argparse.Namespace, heard: Mapping[str, Callable[[bytes], None]]) -> None:
+def relay(
+    given: argparse.Namespace,
+    heard: Mapping[str, Callable[[bytes], None]],
+    heard_raw: Mapping[str, Callable[[bytes, bytes], None]] | None = None,
+) -> None:
     """Call functions with the messages of a run until the run is over.
 
     Parameters
@@ -60,6 +64,8 @@ def relay(given: argparse.Namespace, heard: Mapping[str, Callable[[bytes], None]
     heard
         Called with each message, by the pattern of its key below the run, such as ``adsb/*``; on a
         thread of Zenoh.
+    heard_raw
+        Called with the header and the bytes of each message on keys whose payload is raw bytes.
 
     Raises
     ------
@@ -81,8 +87,17 @@ def relay(given: argparse.Namespace, heard: Mapping[str, Callable[[bytes], None]
     def forward(call: Callable[[bytes], None]) -> Callable[[zenoh.Sample], None]:
         return lambda sample: call(sample.payload.to_bytes())
 
+    def forward_raw(call: Callable[[bytes, bytes], None]) -> Callable[[zenoh.Sample], None]:
+        def hear(sample: zenoh.Sample) -> None:
+            if sample.attachment is not None:
+                call(sample.attachment.to_bytes(), sample.payload.to_bytes())
+
+        return hear
+
+    calls = {key: forward(call) for key, call in heard.items()}
+    calls |= {key: forward_raw(call) for key, call in (heard_raw or {}).items()}
     subscribers = [
-        session.declare_subscriber(f"{ROOT}/*/{key}", forward(call)) for key, call in heard.items()
+        session.declare_subscriber(f"{ROOT}/*/{key}", call) for key, call in calls.items()
     ]
     subscribers.append(session.declare_subscriber(f"{ROOT}/*/clock", hear_clock))
     subscribers.append(session.liveliness().declare_subscriber(f"{ROOT}/*/run", hear_presence))

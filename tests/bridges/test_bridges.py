@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import runpy
 import socket
+import struct
 import subprocess
 import sys
 import time
@@ -15,16 +17,18 @@ from typing import Any
 import pytest
 
 from airhilt.bus import Bus, free_endpoint
+from airhilt.bus.access import WITHOUT_KEYS
 from airhilt.bus.bridge import WAITING, Feed, WallClock, datagrams
 from airhilt.errors import BusError
 from airhilt.host import library
-from airhilt.messages import AdsbReport, Clock
+from airhilt.messages import ActorTruth, AdsbReport, Clock, CockpitInstruments
 from airhilt.units import SECOND_NS
 
-BRIDGES = sorted(path.name for path in library.folder("bridges").glob("*.py"))
 LONG_S = 120.0
 """Time that a busy machine may take to start a program."""
 ON_TCP = ("avr.py", "beast.py", "sbs1.py")
+BRIDGES = (*ON_TCP, "asterix.py", "gdl90.py")
+"""Bridges that give out ADS-B reports as bytes."""
 MIDDAY = datetime(2026, 3, 1, 12, 0, 1, 500_000, tzinfo=UTC)
 REPORT = AdsbReport(
     icao24="a1b2c3", callsign="AAL123", latitude_deg=38.9, longitude_deg=-77.0,
@@ -34,6 +38,19 @@ REPORT = AdsbReport(
 )  # fmt: skip
 OTHER = REPORT.model_copy(update={"icao24": "a4d5e6"})
 ON_GROUND = REPORT.model_copy(update={"altitude_ft": None, "on_ground": True})
+
+TRUTH = ActorTruth(
+    actor="AAL123", category="aircraft", phase="final", on_ground=False, latitude_deg=38.9,
+    longitude_deg=-77.0, altitude_m=304.8, height_agl_m=300.0, velocity_north_m_s=60.96,
+    velocity_east_m_s=-30.48, velocity_down_m_s=3.048, roll_deg=-10.0, pitch_deg=2.5,
+    heading_deg=333.0, calibrated_airspeed_m_s=72.0222,
+)  # fmt: skip
+INSTRUMENTS = CockpitInstruments(
+    callsign="AAL123", airspeed_kt=140.0, mach=0.2, altitude_ft=1000, vertical_speed_fpm=-600,
+    north="true", heading_deg=333.0, track_deg=333.0, ground_speed_kt=132.5, pitch_deg=2.5,
+    roll_deg=-10.0, gear=1.0, flaps=0.75, on_ground=False, mode="glide",
+    selected_altitude_ft=0, selected_airspeed_kt=140,
+)  # fmt: skip
 
 
 def bridge(name: str) -> dict[str, Any]:
@@ -124,6 +141,67 @@ class TestGdl90:
         )
         assert first == [(10, "a1b2c3"), (20, "a4d5e6")]
         assert second == [(10, "a1b2c3")]
+
+
+class TestFlightGear:
+    """Places of fields are those of net_fdm.hxx of FlightGear 2020.3, version 24."""
+
+    def test_a_packet_has_the_size_version_and_fields_of_the_published_structure(self) -> None:
+        packet = bridge("flightgear.py")["packet"](TRUTH, gear=0.5, flaps=0.25)
+        assert len(packet) == 408
+        assert struct.unpack_from(">I", packet) == (24,)
+        assert struct.unpack_from(">3d", packet, 8) == pytest.approx(
+            (math.radians(-77.0), math.radians(38.9), 304.8)
+        )
+        height, *attitude = struct.unpack_from(">4f", packet, 32)
+        assert height == 300.0
+        assert attitude == pytest.approx([math.radians(angle) for angle in (-10.0, 2.5, 333.0)])
+        airspeed_and_velocity = struct.unpack_from(">5f", packet, 68)
+        assert airspeed_and_velocity == pytest.approx((140.0, -10.0, 200.0, -100.0, 10.0), rel=1e-5)
+        assert (
+            struct.unpack_from(">I", packet, 120) == struct.unpack_from(">I", packet, 284) == (0,)
+        )
+        assert struct.unpack_from(">I3I3f", packet, 304) == (3, 0, 0, 0, 0.5, 0.5, 0.5)
+        assert struct.unpack_from(">2f", packet, 376) == (0.25, 0.25)
+
+    def test_gear_and_flaps_are_those_of_the_instruments_of_the_aircraft(self) -> None:
+        aircraft = bridge("flightgear.py")["Aircraft"]("AAL123")
+        assert wheels_and_flaps(aircraft.packet(TRUTH)) == (0.0, 0.0)
+        aircraft.read(INSTRUMENTS.model_copy(update={"callsign": "UAL7", "flaps": 0.1}))
+        aircraft.read(INSTRUMENTS)
+        assert wheels_and_flaps(aircraft.packet(TRUTH)) == (1.0, 0.75)
+
+    def test_only_the_chosen_aircraft_is_shown_until_the_run_ends(self) -> None:
+        with ExitStack() as stack:
+            bus = stack.enter_context(closing(Bus("run", anyone=(*WITHOUT_KEYS, "recorder"))))
+            simulator = stack.enter_context(socket.socket(type=socket.SOCK_DGRAM))
+            simulator.bind(("127.0.0.1", 0))
+            program = subprocess.Popen(
+                [
+                    *command("flightgear.py", bus.endpoint, simulator.getsockname()[1]),
+                    "--aircraft", "AAL123",
+                ]
+            )  # fmt: skip
+            other = TRUTH.model_copy(update={"actor": "UAL7", "altitude_m": 9000.0})
+            heard: list[bytes] = []
+
+            def is_heard() -> bool:
+                for state in (other, TRUTH):
+                    key = f"truth/state/{state.actor}"
+                    bus.put(key, state.model_dump_json().encode())
+                heard.extend(pieces(simulator))
+                return len(heard) > 2
+
+            wait_until(is_heard)
+            end = Clock(run="run", phase="finished", pace="1x")
+            bus.put("clock", end.model_dump_json().encode())
+            assert program.wait(timeout=LONG_S) == 0
+        assert {struct.unpack_from(">d", packet, 24)[0] for packet in heard} == {304.8}
+
+
+def wheels_and_flaps(packet: bytes) -> tuple[float, float]:
+    """Return the position of the first gear and of the left flap in a packet."""
+    return struct.unpack_from(">f", packet, 320)[0], struct.unpack_from(">f", packet, 376)[0]
 
 
 class TestFeed:

@@ -1,4 +1,4 @@
-"""What bridges give out is read back by programs of others: pyModeS and asterix-decoder."""
+"""What bridges give out is read back by programs of others."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.host import library
-from airhilt.messages import EMERGENCY_STATES, AdsbReport, RadarPlot
+from airhilt.messages import EMERGENCY_STATES, ActorTruth, AdsbReport, RadarPlot
 from airhilt.surveillance import cpr
 from airhilt.surveillance.mode_s_frames import FrameSource
-from airhilt.units import KNOT, NAUTICAL_MILE
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from reports import reports
 
 pytestmark = pytest.mark.decoders
@@ -132,6 +132,57 @@ class TestWithAsterixDecoder:
         assert abs(turned) <= 180.0 / 2**16
         assert read["I070"]["Mode3A"] == squawk
         assert read["I090"]["FL"] == level
+
+
+@st.composite
+def states(draw: st.DrawFn) -> ActorTruth:
+    """The true state of an aircraft anywhere on the Earth."""
+    speeds = st.floats(-400.0, 400.0)
+    return ActorTruth(
+        actor="AAL123", category="aircraft", phase="cruise", on_ground=draw(st.booleans()),
+        latitude_deg=draw(st.floats(-90.0, 90.0)), longitude_deg=draw(st.floats(-180.0, 180.0)),
+        altitude_m=draw(st.floats(-400.0, 15_000.0)), height_agl_m=draw(st.floats(0.0, 15_000.0)),
+        velocity_north_m_s=draw(speeds), velocity_east_m_s=draw(speeds),
+        velocity_down_m_s=draw(speeds), roll_deg=draw(st.floats(-180.0, 180.0)),
+        pitch_deg=draw(st.floats(-90.0, 90.0)),
+        heading_deg=draw(st.floats(0.0, 360.0, exclude_max=True)),
+        calibrated_airspeed_m_s=draw(st.none() | st.floats(0.0, 300.0)),
+    )  # fmt: skip
+
+
+@pytest.mark.skipif(
+    find_spec("flightgear_python") is None,
+    reason="no flightgear-python: pip install airhilt[decoders]",
+)
+@settings(deadline=None)
+@given(states(), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
+def test_flightgear_python_reads_a_state_back(state: ActorTruth, gear: float, flaps: float) -> None:
+    from flightgear_python.fdm_v24 import fdm_struct
+
+    packet = runpy.run_path(str(library.folder("bridges") / "flightgear.py"))["packet"]
+    data = packet(state, gear, flaps)
+    assert len(data) == fdm_struct.sizeof()
+    read = fdm_struct.parse(data)
+    angles = ("lat_rad", state.latitude_deg), ("lon_rad", state.longitude_deg)
+    assert all(read[name] == angle * DEGREE for name, angle in angles)
+    assert read.alt_m == state.altitude_m
+    said = {
+        "agl_m": state.height_agl_m,
+        "phi_rad": state.roll_deg * DEGREE,
+        "theta_rad": state.pitch_deg * DEGREE,
+        "psi_rad": state.heading_deg * DEGREE,
+        "vcas": (state.calibrated_airspeed_m_s or 0.0) / KNOT,
+        "climb_rate_ft_per_s": -state.velocity_down_m_s / FOOT,
+        "v_north_ft_per_s": state.velocity_north_m_s / FOOT,
+        "v_east_ft_per_s": state.velocity_east_m_s / FOOT,
+        "v_down_ft_per_s": state.velocity_down_m_s / FOOT,
+        "left_flap": flaps,
+        "right_flap": flaps,
+    }
+    assert {name: read[name] for name in said} == pytest.approx(said, rel=1e-6, abs=1e-30)
+    assert (read.num_engines, read.num_tanks, read.num_wheels) == (0, 0, 3)
+    assert list(read.wow) == [state.on_ground] * 3
+    assert list(read.gear_pos) == pytest.approx([gear] * 3, rel=1e-6, abs=1e-30)
 
 
 def asterix() -> dict[str, Any]:
