@@ -14,14 +14,17 @@ INCH = FOOT / 12.0
 NAUTICAL_MILE = 1852.0
 """Metres in a nautical mile (exact; ICAO Annex 5)."""
 KNOT = NAUTICAL_MILE / 3600.0
-POUND = 0.45359237
 """Metres per second in a knot."""
+POUND = 0.45359237
+"""Kilograms in a pound (exact; ICAO Annex 5)."""
 FOOT_PER_MINUTE = FOOT / 60.0
 """Metres per second in a foot per minute."""
 DEGREE = math.pi / 180.0
 """Radians in a degree."""
 SECOND_NS = 1_000_000_000
 """Nanoseconds in a second."""
+MILLISECOND_NS = 1_000_000
+"""Nanoseconds in a millisecond."""
 STANDARD_GRAVITY = 9.80665
 """m/s2 (ICAO Doc 7488/3)."""
 

@@ -1,4 +1,4 @@
-"""What a run sends to services, and what they answer, as an OpenAPI document."""
+"""The requests of a run to services, and their answers, as an OpenAPI document."""
 
 from __future__ import annotations
 

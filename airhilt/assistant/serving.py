@@ -28,7 +28,8 @@ from airhilt.audio.wav import decode_speech, encode_wav
 from airhilt.engine_families import DETECTORS, RECOGNISERS, VOICES
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.host.forms import decoded_form
-from airhilt.host.service_headers import NS_PER_MS, ServiceHeaders
+from airhilt.host.service_headers import ServiceHeaders
+from airhilt.units import MILLISECOND_NS
 from airhilt.voices.engine import TtsEngine, VoiceSpec
 from airhilt.voices.service_messages import SpeechRequest
 
@@ -92,7 +93,7 @@ def _asr(name: str) -> Answer:
         call = Call(
             told.turn_id or "",
             told.frequency_khz or 0,
-            (told.ts_ms or 0) * NS_PER_MS,
+            (told.ts_ms or 0) * MILLISECOND_NS,
             told.speaker,
             told.callsigns or (),
         )
@@ -129,7 +130,7 @@ def _vision(name: str) -> Answer:
         own = None if request.ego_mask is None else _picture(request.ego_mask).convert("1")
         shot = Shot(
             request.camera_id,
-            request.ts_ms * NS_PER_MS,
+            request.ts_ms * MILLISECOND_NS,
             left,
             top,
             None if own is None else np.asarray(own),

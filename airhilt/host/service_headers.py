@@ -8,7 +8,6 @@ from urllib.parse import quote, unquote
 
 from pydantic import BaseModel, ConfigDict, Field, PlainSerializer
 
-NS_PER_MS = 1_000_000
 SAFE = " !#$&'()*+/:;<=>?@[]^`{|}"
 """Characters of a value that are sent as they are, besides letters, digits and ``_.-~``."""
 

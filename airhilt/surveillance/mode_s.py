@@ -45,7 +45,7 @@ GEOMETRIC_VERTICAL_ACCURACY = 2
 
 
 class _Integrity(NamedTuple):
-    """How a NIC is sent: the type code of positions, and two supplements (MOPS, table 2-70)."""
+    """Form of a NIC in the air: type code of positions, and two supplements (MOPS, table 2-70)."""
 
     type_code: int
     supplement_a: int = 0
@@ -59,12 +59,12 @@ _AIRBORNE = tuple(
     for how in ((18,), (17,), (16,), (16, 1, 1), (15,), (14,), (13,), (12,), (11,), (11, 1, 1),
                 (10,), (9,))
 )  # fmt: skip
-"""How each NIC, from 0 to 11, is sent in the air."""
+"""Forms of the NICs from 0 to 11 of airborne positions."""
 _SURFACE = tuple(
     _Integrity(*how)
     for how in (*[(8,)] * 6, (8, 0, 1), (8, 1, 1), (7,), (7, 1), (6,), (5,))
 )  # fmt: skip
-"""How each NIC, from 0 to 11, is sent on the surface; 1 to 5 are sent as 0, unknown."""
+"""Forms of the NICs from 0 to 11 of surface positions; 1 to 5 are sent as 0, unknown."""
 
 
 def parity(data: bytes) -> int:
@@ -238,7 +238,7 @@ def _capability(on_ground: bool) -> int:
 
 
 class Surveillance(NamedTuple):
-    """What a transponder replies to interrogations."""
+    """Contents of a transponder's replies to interrogations."""
 
     address: int
     altitude_ft: float | None

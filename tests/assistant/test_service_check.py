@@ -1,4 +1,4 @@
-"""What the checker of services says of good ones and bad ones."""
+"""The checker of services tells good ones from bad ones."""
 
 from __future__ import annotations
 

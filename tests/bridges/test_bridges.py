@@ -54,7 +54,7 @@ INSTRUMENTS = CockpitInstruments(
 
 
 def bridge(name: str) -> dict[str, Any]:
-    """What a bridge defines."""
+    """Names that a bridge defines, with their values."""
     return runpy.run_path(str(library.folder("bridges") / name))
 
 
@@ -293,7 +293,7 @@ def command(name: str, endpoint: str, port: int) -> list[str]:
 
 @pytest.fixture(scope="module")
 def received() -> dict[str, bytes]:
-    """What each bridge gave out of a run of two aircraft, while a client of it hung; by name."""
+    """Bytes that each bridge gave out of a run of two aircraft, while a client of it hung."""
     with ExitStack() as stack:
         bus = stack.enter_context(closing(Bus("run")))
         ports = {name: free_port() for name in BRIDGES}

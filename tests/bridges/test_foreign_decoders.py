@@ -1,4 +1,4 @@
-"""What bridges give out is read back by programs of others."""
+"""Programs of others read back the frames and packets of bridges."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ def test_flightgear_python_reads_a_state_back(state: ActorTruth, gear: float, fl
 
 
 def asterix() -> dict[str, Any]:
-    """What the bridge defines."""
+    """Names that the bridge defines, with their values."""
     return runpy.run_path(str(library.folder("bridges") / "asterix.py"))
 
 

@@ -91,7 +91,7 @@ MESSAGES: dict[str, tuple[BaseModel, bytes | None]] = {
     "radio/119100/tx": (TRANSMISSION, SOUND),
     "camera/tower/frame": (FRAME, bytes([200, 100, 50] * WIDTH * HEIGHT)),
 }
-"""What the run publishes, and the raw bytes that it is a header of."""
+"""Messages of the run, and the raw bytes that each is a header of."""
 
 END = Clock(run="run", phase="finished", pace="1x").model_dump_json().encode()
 
@@ -166,7 +166,7 @@ def connected(port: int) -> ClientConnection:
 
 @pytest.fixture(scope="module")
 def heard() -> Iterator[dict[str, list[Any]]]:
-    """What a client got of a run that shares its truth, by topic."""
+    """Messages that a client got of a run that shares its truth, by topic."""
     port = int(free_endpoint().rsplit(":", 1)[1])
     with ExitStack() as stack:
         bus = stack.enter_context(closing(Bus("run", anyone=(*WITHOUT_KEYS, "recorder"))))

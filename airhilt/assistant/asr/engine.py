@@ -47,7 +47,7 @@ class AsrEngine(Protocol):
 
 
 class Call(NamedTuple):
-    """What a receiver knows of a transmission besides its sound."""
+    """A transmission as a receiver knows it besides its sound."""
 
     id: str
     frequency_khz: int

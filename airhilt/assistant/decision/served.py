@@ -9,7 +9,6 @@ from airhilt.assistant.decision.service_messages import (
     AssistantRequest,
     ProposedAdvisory,
 )
-from airhilt.assistant.decision.slices import MS_NS
 from airhilt.messages import (
     AdsbReport,
     Advisory,
@@ -21,6 +20,7 @@ from airhilt.messages import (
     is_match,
 )
 from airhilt.sim.worker import Input
+from airhilt.units import MILLISECOND_NS
 from airhilt.workers.protocol import Worker
 
 SERVED = "service"
@@ -46,7 +46,7 @@ class ServedAssistant:
 
     def answer(self, request: AssistantRequest) -> AssistantAnswer:
         """Return all conflicts that hold."""
-        t_ns = request.ts_ms * MS_NS
+        t_ns = request.ts_ms * MILLISECOND_NS
         if t_ns < self._t_ns:
             self._begin()
         self._t_ns = t_ns
@@ -87,7 +87,7 @@ def _messages(request: AssistantRequest) -> Iterator[tuple[str, str, Message]]:
     if request.context is not None:
         yield "briefing", "briefing", Briefing(**request.context.model_dump())
     for track in request.tracks:
-        t_ns = track.ts_ms * MS_NS
+        t_ns = track.ts_ms * MILLISECOND_NS
         report = AdsbReport(
             **track.model_dump(exclude={"ts_ms"}),
             t_ns=t_ns,
@@ -97,7 +97,7 @@ def _messages(request: AssistantRequest) -> Iterator[tuple[str, str, Message]]:
         )
         yield f"adsb/{track.icao24}", f"adsb/{track.icao24}", report
     for camera in request.cameras:
-        t_ns = camera.ts_ms * MS_NS
+        t_ns = camera.ts_ms * MILLISECOND_NS
         seen = Detections(
             t_ns=t_ns,
             camera=camera.camera_id,
@@ -110,11 +110,11 @@ def _messages(request: AssistantRequest) -> Iterator[tuple[str, str, Message]]:
         yield f"vision/{camera.camera_id}/{t_ns}", f"vision/{camera.camera_id}", seen
     for turn in request.radio:
         transcript = Transcript(
-            t_ns=turn.end_ms * MS_NS,
+            t_ns=turn.end_ms * MILLISECOND_NS,
             id=turn.turn_id,
             frequency_khz=turn.frequency_khz,
-            t_tx_ns=turn.ts_ms * MS_NS,
-            t_end_ns=turn.end_ms * MS_NS,
+            t_tx_ns=turn.ts_ms * MILLISECOND_NS,
+            t_end_ns=turn.end_ms * MILLISECOND_NS,
             text=turn.text,
             words=turn.words,
             confidence=turn.confidence,

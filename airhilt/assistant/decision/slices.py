@@ -19,7 +19,7 @@ from airhilt.assistant.decision.service_messages import (
 from airhilt.assistant.decision.velocity_checks import VelocityChecks
 from airhilt.messages import AdsbReport, Briefing, CameraInfo, Detections, Message, Part, Transcript
 from airhilt.phraseology import parse_call
-from airhilt.units import SECOND_NS
+from airhilt.units import MILLISECOND_NS, SECOND_NS
 
 RADIO_NS = 120 * SECOND_NS
 """Age up to which a call is given, from its end: two minutes, a clearance with its readback."""
@@ -31,8 +31,6 @@ READS: tuple[type[Message], ...] = (Briefing, AdsbReport, Transcript, Detections
 """Messages that slices are made of."""
 INPUTS: Mapping[str, object] = MappingProxyType({"camera/*/info": CameraInfo})
 """Further messages by which they are checked, by their keys."""
-MS_NS = 1_000_000
-"""Nanoseconds in a millisecond."""
 SECOND_MS = 1_000
 """Milliseconds in a second, the unit of `ts_ms`."""
 
@@ -89,19 +87,19 @@ class Slices:
         callsigns = self.callsigns()
         radio = sorted(self._radio.values(), key=lambda each: (each.t_tx_ns, each.id))
         return AssistantRequest(
-            ts_ms=t_ns // MS_NS,
+            ts_ms=t_ns // MILLISECOND_NS,
             context=self._context,
             radio=tuple(_turn(each, callsigns) for each in radio),
             cameras=tuple(
                 CameraSlice(
                     camera_id=each.camera,
-                    ts_ms=each.t_frame_ns // MS_NS,
+                    ts_ms=each.t_frame_ns // MILLISECOND_NS,
                     **_shared(each, CameraSlice),
                 )
                 for each in self._cameras
             ),
             tracks=tuple(
-                TrackSlice(ts_ms=each.t_adsb_in_ns // MS_NS, **_shared(each, TrackSlice))
+                TrackSlice(ts_ms=each.t_adsb_in_ns // MILLISECOND_NS, **_shared(each, TrackSlice))
                 for _, each in sorted(self._tracks.items())
             ),
         )
@@ -114,8 +112,8 @@ def _turn(transcript: Transcript, callsigns: tuple[str, ...]) -> RadioTurn:
         **_shared(transcript, RadioTurn)
         | {
             "turn_id": transcript.id,
-            "ts_ms": transcript.t_tx_ns // MS_NS,
-            "end_ms": transcript.t_end_ns // MS_NS,
+            "ts_ms": transcript.t_tx_ns // MILLISECOND_NS,
+            "end_ms": transcript.t_end_ns // MILLISECOND_NS,
             "addressed_callsign": call.callsign if call.addressed_first else None,
             "speaker": speaker,
         }

@@ -20,9 +20,10 @@ from airhilt.audio.wav import encode_wav
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError
 from airhilt.host.forms import encoded_form
-from airhilt.host.service_headers import NS_PER_MS, ServiceHeaders
+from airhilt.host.service_headers import ServiceHeaders
 from airhilt.host.services import USAGE, HttpService, is_service, key_of
 from airhilt.phraseology.canonical import WordConfidence, canonical
+from airhilt.units import MILLISECOND_NS
 
 FORM_PATHS = ("/audio/transcriptions", "/inference")
 """Ends of the paths of OpenAI's API and of the server of whisper.cpp."""
@@ -70,7 +71,7 @@ class HttpAsr:
     def recognise_call(self, audio: Audio, call: Call) -> Recognised:
         """Return what the service makes of a call, and tell it which that is."""
         headers = ServiceHeaders(
-            ts_ms=call.t_tx_ns // NS_PER_MS,
+            ts_ms=call.t_tx_ns // MILLISECOND_NS,
             turn_id=call.id,
             frequency_khz=call.frequency_khz,
             speaker=call.speaker,

@@ -22,12 +22,11 @@ from pydantic import BaseModel, ConfigDict
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.language.question import ACTIONS, KINDS, QuestionContext, Turn
 from airhilt.assistant.decision.service_messages import AssistantRequest
-from airhilt.assistant.decision.slices import MS_NS
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima, relative, time_to_loss_s
 from airhilt.messages import CONTROLLER, AdvisoryKind, Evidence, Recommendation, Rejection, Severity
 from airhilt.phraseology import TAU_ASR, Action
-from airhilt.units import FOOT, NAUTICAL_MILE
+from airhilt.units import FOOT, MILLISECOND_NS, NAUTICAL_MILE
 
 RESOLVING: frozenset[Action] = frozenset(
     {"go_around", "hold_short", "hold_position", "cancel_takeoff", "cancel_landing", "vacate",
@@ -272,8 +271,9 @@ def is_airborne_conflict(traffic: Sequence[str], request: AssistantRequest) -> b
         NEAR * request.context.horizontal_separation_nm * NAUTICAL_MILE,
         NEAR * request.context.vertical_separation_ft * FOOT,
     )
+    now_ns = request.ts_ms * MILLISECOND_NS
     flying = [
-        Track.of(each, each.altitude_ft, each.ts_ms * MS_NS).at(request.ts_ms * MS_NS)
+        Track.of(each, each.altitude_ft, each.ts_ms * MILLISECOND_NS).at(now_ns)
         for each in request.tracks
         if (each.callsign or each.icao24) in traffic
         and each.altitude_ft is not None

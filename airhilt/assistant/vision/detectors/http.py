@@ -18,10 +18,11 @@ from airhilt.assistant.vision.service_messages import (
 )
 from airhilt.engines import Engine
 from airhilt.errors import VisionError
-from airhilt.host.service_headers import NS_PER_MS, ServiceHeaders
+from airhilt.host.service_headers import ServiceHeaders
 from airhilt.host.services import USAGE, HttpService, is_service, key_of
 from airhilt.imaging.boxes import area
 from airhilt.imaging.masks import Mask
+from airhilt.units import MILLISECOND_NS
 
 JSON_PATH = "/detections"
 """End of the path of services that take the JSON of the AIRHILT paper."""
@@ -66,7 +67,7 @@ class HttpDetector:
         """Return what the service finds in a picture, and tell it where that comes from."""
         png, own = encode_png(picture), shot.own_aircraft
         mask = None if own is None or not own.any() else base64.b64encode(encode_png(own)).decode()
-        ts_ms = shot.t_frame_ns // NS_PER_MS
+        ts_ms = shot.t_frame_ns // MILLISECOND_NS
         headers = ServiceHeaders(ts_ms=ts_ms, camera_id=shot.camera)
         if self._takes_json:
             request = PictureRequest(
