@@ -102,6 +102,14 @@ def page(browser: Page) -> Iterator[Page]:
     assert browser.complaints == []
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Function) -> None:
+    """Leave the page before what serves it ends, so that it does not ask in vain."""
+    page = getattr(item, "funcargs", {}).get("page")
+    if isinstance(page, Page):
+        page.open("about:blank")
+
+
 @pytest.fixture
 def airhilt_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Cli]:
     """Runs the command line in an empty folder, in the process of the tests."""
