@@ -96,7 +96,7 @@ class Collector:
         self._is_on_frequency = is_on_frequency
         pair = scenario.pair
         self._monitor, self._runways = monitor, runways
-        self._outcome = Outcome(monitor, runways, pair)
+        self._outcome = Outcome(monitor, runways, pair, scenario.causes)
         self._first_warning = FirstWarning(pair, monitor, plans, ground_m)
         self._latencies = StageLatencies()
         self._calls = CallRecords()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from airhilt.metrics.summary import ClosestApproach, ConflictOutcome, RunwayIncursion
 from airhilt.scenario.models import UnassistedOutcome
 from airhilt.units import SECOND_NS
@@ -24,14 +26,22 @@ AT_LEAST: dict[UnassistedOutcome, frozenset[str]] = {
 
 
 class Outcome:
-    """The outcome of a run: of the annotated pair, and of the runways where there are any."""
+    """The outcome of a run: of the annotated pair, and of the runways where there are any.
+
+    `causes` are the pairs whose collision begins the conflict: it is no outcome of it.
+    """
 
     def __init__(
-        self, monitor: ConflictMonitor, runways: RunwayMonitor | None, pair: Pair | None
+        self,
+        monitor: ConflictMonitor,
+        runways: RunwayMonitor | None,
+        pair: Pair | None,
+        causes: Iterable[Pair] = (),
     ) -> None:
         self._monitor = monitor
         self._runways = runways
         self._pair = pair
+        self._causes = {frozenset(each) for each in causes}
 
     @property
     def pair_truth(self) -> PairTruth | None:
@@ -61,8 +71,12 @@ class Outcome:
         )
 
     def happened(self, phase: str) -> bool:
-        """Return true if any pair came to a phase, such as ``nmac``."""
-        return any(phase in truth.first_ns for truth in self._monitor.pairs.values())
+        """Return true if any pair but the causes came to a phase, such as ``nmac``."""
+        return any(
+            phase in truth.first_ns
+            for pair, truth in self._monitor.pairs.items()
+            if frozenset(pair) not in self._causes
+        )
 
     def incursions(self) -> list[RunwayIncursion]:
         """Return all runway incursions."""

@@ -517,7 +517,10 @@ class Summary(_Part):
         "horizontally and 100 ft vertically, or with less than 100 ft between their outlines; "
         "never counted if either is on the ground"
     )
-    collision: bool = Field(description="the outlines of two actors touched")
+    collision: bool = Field(
+        description="the outlines of two actors touched, other than two whose collision begins "
+        "the conflict"
+    )
     runway_incursions: list[RunwayIncursion]
     runway_incursion_category: IncursionCategory | None = Field(
         description="the most severe: accident, A, B, C, D; null if there was none"

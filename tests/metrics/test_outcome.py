@@ -7,6 +7,7 @@ from typing import Any, cast
 
 import pytest
 
+from airhilt import load
 from airhilt.messages import Advisory, Confirm, Evidence, GoAround, Severity
 from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.outcome import Outcome
@@ -77,6 +78,15 @@ def test_a_serious_incursion_of_the_pair_was_not_avoided(
     found = outcome({}, PAIR, [incursion(category, *names)])
     assert found.avoided(was_warned) is avoided
     assert found.came_about("runway_incursion") is (avoided is False)
+
+
+def test_a_collision_that_begins_the_conflict_is_no_outcome_of_it() -> None:
+    (strike,) = load("s02b_bird_strike").causes
+    pairs = {tuple(reversed(strike)): PairTruth(first_ns={"collision": 1})}
+    found = Outcome(cast(Any, SimpleNamespace(pairs=pairs)), None, PAIR, [strike])
+    assert not found.happened("collision")
+    pairs[PAIR] = PairTruth(first_ns={"collision": 1})
+    assert found.happened("collision")
 
 
 def test_what_came_about_is_that_or_worse() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -242,3 +243,13 @@ Condition = Annotated[
 
 AllOf.model_rebuild()
 AnyOf.model_rebuild()
+
+
+def collisions(condition: Condition) -> Iterator[Pair]:
+    """Yield the pairs whose collision a condition asks for."""
+    match condition:
+        case Collided(actors=actors):
+            yield actors
+        case AllOf(conditions=inner) | AnyOf(conditions=inner):
+            for one in inner:
+                yield from collisions(one)

@@ -10,7 +10,7 @@ from airhilt.geodesy.positions import Position
 from airhilt.quantities import LONGEST_RUN_S, FileName, Name, Number
 from airhilt.scenario.models.actors import ActorSpec, AircraftSpec, WildlifeSpec
 from airhilt.scenario.models.base import Callsign, Identifier, Model
-from airhilt.scenario.models.conditions import Condition, Pair
+from airhilt.scenario.models.conditions import Condition, Pair, collisions
 from airhilt.scenario.models.controllers import Controller
 from airhilt.scenario.models.failures import Failure
 from airhilt.scenario.models.radio import Radio
@@ -199,6 +199,12 @@ class Scenario(Model):
         order = [actor.callsign for actor in self.actors]
         first, second = sorted(self.conflict.actors, key=order.index)
         return first, second
+
+    @property
+    def causes(self) -> list[Pair]:
+        """The pairs whose collision begins the conflict, such as an aircraft and a flock."""
+        begins = None if self.conflict is None else self.conflict.begins
+        return [] if begins is None else list(collisions(begins))
 
     @property
     def roster(self) -> tuple[str, ...]:
