@@ -48,11 +48,6 @@ FLAGS: tuple[Callable[[Any], Any], ...] = (
         help="Memory at which a run is ended.  [default: 4000]",
     ),
     click.option("--retry", is_flag=True, help="Run again what a limit or a crash has ended."),
-    click.option(
-        "--dashboard",
-        metavar="ADDRESS",
-        help="Serve Dask's dashboard, such as on 127.0.0.1:8787; it needs the extra cluster.",
-    ),
     click.option("--dry-run", is_flag=True, help="Only say how many runs, and about how long."),
     click.option("--quiet", is_flag=True, help="Print nothing but errors and warnings."),
     click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON."),
@@ -75,9 +70,8 @@ def work_given(given: Mapping[str, Any], out: Path) -> Work:
         One of them is wrong.
     """
     from airhilt.sweep.runner_process import Limits
-    from airhilt.sweep.work import Work, keep_of, require_dashboard
+    from airhilt.sweep.work import Work, keep_of
 
-    require_dashboard(given["dashboard"])
     keep, sample = keep_of(given["keep"])
     limits = {name: given[name] for name in ("wall_s", "memory_mb") if given[name] is not None}
     return Work(
@@ -87,6 +81,5 @@ def work_given(given: Mapping[str, Any], out: Path) -> Work:
         scheduler=given["scheduler"],
         keep=keep,
         sample=sample,
-        dashboard=given["dashboard"],
         retry=given["retry"],
     )

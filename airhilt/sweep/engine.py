@@ -1,14 +1,14 @@
 """A sweep, from its specification to its tables. The main path begins at `sweep`.
 
-The runs that the folder does not have yet are given to the workers of a Dask cluster, a few more
-than there are workers at a time. Each outcome is on the disk before the next one is asked for.
+The runs that the folder does not have yet are given to runners on this machine or to the workers
+of a Dask scheduler. Each outcome is on the disk before the next one is asked for.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Container, Iterable, Mapping, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
@@ -20,15 +20,13 @@ from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
 from airhilt.sensors.cameras import UNSEEN_FIELDS
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.dask_client import Workers, described, outcomes, prepared
-from airhilt.sweep.dask_worker import RunnerPlugin, probe_in
 from airhilt.sweep.environment import Environment, environment
+from airhilt.sweep.executors import Executor, Executors
 from airhilt.sweep.outcome import OF_THE_MACHINE, Keep, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
-from airhilt.sweep.scheduler import connect, openness, require_scheduler
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import folder_name, grid_sha256, part_of, part_schema, tables_of
-from airhilt.sweep.work import Work, default_workers
+from airhilt.sweep.work import Work, require_scheduler
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -78,6 +76,7 @@ def sweep(
     work: Work,
     observer: SweepObserver | None = None,
     grid: Sequence[Case] | None = None,
+    executors: Executors | None = None,
 ) -> SweepResult:
     """Run what a sweep's folder does not have yet, and write its tables.
 
@@ -85,6 +84,8 @@ def sweep(
     ----------
     grid
         The checked runs of the specification; None: they are yet to be checked.
+    executors
+        Who does the runs, if several sweeps share them.
 
     Raises
     ------
@@ -113,11 +114,9 @@ def sweep(
         missing = missing_of(by_key, finished, work.retry)
         if missing:
             requests = _requests(missing, by_key, work)
-            with ExitStack() as stack:
-                is_kept = any(request.keep != "none" for request in requests)
-                probe = stack.enter_context(probe_in(folder.runs_path)) if is_kept else None
-                plugin = RunnerPlugin(renderer, work.limits, own, probe)
-                _run_missing(requests, info, folder, work, plugin, observer)
+            with nullcontext(executors) if executors else Executors(work) as found:
+                executor = found.of(renderer, own, observer.notice)
+                _run_missing(requests, info, folder, executor, observer)
             finished = by_keys(folder.finished(part_schema(), observer.notice), by_key)
         table, machine = tables_of(by_key, finished)
         folder.write_tables(table, machine, info)
@@ -237,35 +236,25 @@ def _run_missing(
     requests: Sequence[Request],
     info: Mapping[str, Any],
     folder: SweepFolder,
-    work: Work,
-    plugin: RunnerPlugin,
+    executor: Executor,
     observer: SweepObserver,
 ) -> None:
-    """Let the workers of a scheduler run what is missing; keep each outcome as it comes.
+    """Have what is missing run; keep each outcome as it comes.
 
     After many crashes in a row no more is begun.
     """
-    count = min(work.workers or default_workers(plugin.renderer), len(requests))
     total, crashes = int(info["runs"]), 0
 
     def stops() -> bool:
         return observer.stops or crashes >= MOST_CRASHES
 
-    with connect(work.scheduler, count, work.dashboard) as client:
-        if notice := openness(client.scheduler_info()["address"]):
-            observer.notice(notice)
-        workers = Workers(client, observer.notice)
-        workers.wait(stops)
-        with prepared(client, plugin):
-            folder.write_next_info(info)
-            observer.begun(
-                total, total - len(requests), described(client, work.dashboard is not None)
-            )
-            ordered = apart(requests, max(workers.threads(), count))
-            for outcome in outcomes(client, plugin.name, ordered, workers, stops):
-                folder.keep(part_of([outcome]))
-                observer.ended(outcome)
-                crashes = crashes + 1 if outcome.status == "crashed" else 0
+    workers = executor.ready(stops)
+    folder.write_next_info(info)
+    observer.begun(total, total - len(requests), workers)
+    for outcome in executor.outcomes(apart(requests, max(executor.size, 1)), stops):
+        folder.keep(part_of([outcome]))
+        observer.ended(outcome)
+        crashes = crashes + 1 if outcome.status == "crashed" else 0
     if crashes >= MOST_CRASHES:
         observer.notice(f"ended after {MOST_CRASHES} crashes in a row, whose cause is to be mended")
 

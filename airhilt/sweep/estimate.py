@@ -16,10 +16,9 @@ from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.engine import by_keys, missing_of, renderer_of, request_of
 from airhilt.sweep.outcome import Machine
 from airhilt.sweep.runner_process import Limits, RunnerProcess
-from airhilt.sweep.scheduler import LOCAL, require_scheduler
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import part_schema
-from airhilt.sweep.work import Work, default_workers
+from airhilt.sweep.work import LOCAL, Work, default_workers, require_scheduler
 
 
 @dataclass(frozen=True)

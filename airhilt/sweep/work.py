@@ -14,10 +14,11 @@ from airhilt.errors import AirhiltError
 from airhilt.host.machine import available_cores
 from airhilt.sweep.outcome import Keep
 from airhilt.sweep.runner_process import MEGABYTE, Limits
-from airhilt.sweep.scheduler import LOCAL
 
-RUN_MB = 600.0
-"""Memory of a worker without cameras: its runner, and Dask's own process."""
+LOCAL = "local"
+"""Scheduler of a sweep unless another is named: this machine alone."""
+RUN_MB = 400.0
+"""Memory of a runner without cameras."""
 CAMERAS_MB = 900.0
 """Memory that cameras add: the renderer's process, its pictures, and the detector."""
 
@@ -36,8 +37,6 @@ class Work:
         Runs whose folders stay.
     sample
         Number of run folders that stay if ``keep`` is ``none``: the first by key.
-    dashboard
-        Address of Dask's dashboard; None: off.
     retry
         True: runs that a limit ended are tried again.
     allowed
@@ -51,7 +50,6 @@ class Work:
     scheduler: str = LOCAL
     keep: Keep = "none"
     sample: int = 0
-    dashboard: str | None = None
     retry: bool = False
     allowed: Sequence[Path] = ()
 
@@ -80,16 +78,22 @@ def default_workers(renderer: str) -> int:
     return max(1, min(available_cores(), int(by_memory)))
 
 
-def require_dashboard(address: str | None) -> None:
-    """Complain about a dashboard where the package that draws it is not installed.
+def require_scheduler(scheduler: str) -> None:
+    """Complain about a text that names no scheduler; nothing is connected.
 
     Raises
     ------
     AirhiltError
-        The message says how to install it.
+        It is neither ``local``, nor an address, nor a file that exists, or Dask is missing.
     """
-    bokeh = Package("bokeh", "cluster")
-    if address is not None and not bokeh.found():
+    if scheduler == LOCAL:
+        return
+    if "://" not in scheduler and not Path(scheduler).is_file():
         raise AirhiltError(
-            f"--dashboard {address}: Dask draws it with bokeh, which is missing: {bokeh.remedy()}"
+            f"scheduler {scheduler}: no such file; expected local, the address of a Dask scheduler "
+            "such as tcp://host:8786, or its scheduler file (docs/clusters.md has recipes for "
+            "SLURM, PBS, LSF and Kubernetes)"
         )
+    dask = Package("distributed", "cluster")
+    if not dask.found():
+        raise AirhiltError(f"scheduler {scheduler}: Dask is missing: {dask.remedy()}")

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from airhilt.sweep.dask_worker import RunnerPlugin
-from airhilt.sweep.outcome import Machine, Outcome, Request, Status
-
-MACHINE = Machine(wall_s=0.0, cpu_s=0.0, peak_memory_mb=0.0, host="h", process=1)
-
-
-def outcome(key: str, status: Status = "finished", cause: str = "") -> Outcome:
-    """Return an outcome without metrics."""
-    return Outcome(key=key, status=status, cause=cause, machine=MACHINE)
+from airhilt.sweep.outcome import Outcome, Request
+from made_up_runs import outcome
 
 
 @dataclass(eq=False)
@@ -75,8 +68,3 @@ class FakeClient:
         self.submitted.append(request)
         ended = self.ends(request)
         return ended if isinstance(ended, FakeFuture) else FakeFuture(ended)
-
-    @contextmanager
-    def connect(self, *_: object) -> Iterator[FakeClient]:
-        """Return itself, in the place of `airhilt.sweep.scheduler.connect`."""
-        yield self

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import shutil
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
@@ -22,9 +21,7 @@ from airhilt.sweep.estimate import estimate
 from airhilt.sweep.outcome import Outcome, Request
 from airhilt.sweep.specification import Specification, specification_of
 from airhilt.sweep.work import Work
-from fake_dask import FakeClient, outcome
-
-Ends = Callable[[Request], Outcome]
+from made_up_runs import Ends, MadeUpRuns, outcome
 
 
 def first(seeds: int) -> Specification:
@@ -44,18 +41,14 @@ class Noted(SweepObserver):
 class Sweeps:
     """Sweeps into one folder, whose runs end as a test says."""
 
-    def __init__(self, out: Path, patch: pytest.MonkeyPatch) -> None:
+    def __init__(self, out: Path) -> None:
         self.out = out
-        self._patch = patch
 
-    def run(
-        self, ends: Ends, seeds: int = 2, fake: FakeClient | None = None, **work: Any
-    ) -> tuple[SweepResult, list[str]]:
+    def run(self, ends: Ends, seeds: int = 2, **work: Any) -> tuple[SweepResult, list[str]]:
         """Return the result, and what the user is told."""
-        client = fake or FakeClient(ends=ends)
-        self._patch.setattr(engine, "connect", client.connect)
-        observer = Noted()
-        return sweep(first(seeds), Work(self.out, **work), observer), observer.notices
+        observer, executors = Noted(), MadeUpRuns(ends).executors()
+        asked = first(seeds), Work(self.out, **work), observer
+        return sweep(*asked, executors=executors), observer.notices
 
     def seeds_of_tables(self) -> tuple[int, list[int]]:
         """Return how many seeds sweep.json asks for, and those of the table beside it."""
@@ -65,8 +58,8 @@ class Sweeps:
 
 
 @pytest.fixture
-def sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Sweeps:
-    return Sweeps(tmp_path / "sweep", monkeypatch)
+def sweeps(tmp_path: Path) -> Sweeps:
+    return Sweeps(tmp_path / "sweep")
 
 
 def finishes(request: Request) -> Outcome:
@@ -190,12 +183,12 @@ def test_a_dry_run_tries_what_is_left_and_changes_nothing(
 def test_runs_share_pictures_where_it_changes_nothing(
     options: dict[str, Any], shares: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    client = FakeClient(ends=finishes)
-    monkeypatch.setattr(engine, "connect", client.connect)
+    runs = MadeUpRuns(finishes)
     monkeypatch.setattr(engine, "_own_environment", lambda *_: environment(""))
     asked = {"scenarios": ["s02a_headon"], "options": {"speech": False, **options}}
-    sweep(specification_of(asked, "test"), Work(tmp_path / "sweep"))
-    assert [each.options.get("share_pictures", False) for each in client.submitted] == [shares]
+    work = Work(tmp_path / "sweep")
+    sweep(specification_of(asked, "test"), work, executors=runs.executors())
+    assert [each.options.get("share_pictures", False) for each in runs.asked] == [shares]
 
 
 def test_the_tables_of_a_sweep_are_intact_until_they_are_written_anew(sweeps: Sweeps) -> None:
@@ -213,16 +206,14 @@ def test_the_tables_of_a_sweep_are_intact_until_they_are_written_anew(sweeps: Sw
 
 
 def test_a_sweep_joined_from_the_parts_of_two_machines_is_intact(
-    sweeps: Sweeps, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    sweeps: Sweeps, tmp_path: Path
 ) -> None:
-    other = Sweeps(tmp_path / "other", monkeypatch)
+    other = Sweeps(tmp_path / "other")
     sweeps.run(finishes, seeds=1)
     other.run(finishes, seeds=2)
     for part in SweepFolder(other.out).parts_path.glob("*.parquet"):
         shutil.copy(part, SweepFolder(sweeps.out).parts_path)
-    client = FakeClient(ends=finishes)
-    sweeps.run(finishes, seeds=2, fake=client)
-    assert client.submitted == []
+    sweeps.run(crashes, seeds=2)
     assert sweeps.seeds_of_tables() == (2, [0, 1])
     assert verify(sweeps.out).state == "intact"
 

@@ -18,9 +18,9 @@ from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
 from airhilt.sweep.estimate import Estimate, Probes, estimate_of
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results
 from airhilt.sweep.evaluation.tables import Table
-from airhilt.sweep.scheduler import require_scheduler
+from airhilt.sweep.executors import Executors
 from airhilt.sweep.specification import Specification
-from airhilt.sweep.work import Work
+from airhilt.sweep.work import Work, require_scheduler
 
 FORMAT = 1
 
@@ -138,12 +138,13 @@ def evaluate(
         )
     sweeps: dict[str, SweepResult] = {}
     specifications = preset.specifications(choice)
-    for name, grid in _grids(specifications, work).items():
-        with watched(name) as observer:
-            own = replace(work, out=work.out / name)
-            sweeps[name] = sweep(specifications[name], own, observer, grid)
-            if observer.stops:
-                return None
+    with Executors(work) as executors:
+        for name, grid in _grids(specifications, work).items():
+            with watched(name) as observer:
+                own = replace(work, out=work.out / name)
+                sweeps[name] = sweep(specifications[name], own, observer, grid, executors)
+                if observer.stops:
+                    return None
     rows = {
         name: [row for row in each.folder.table().to_pylist() if row["status"] == "finished"]
         for name, each in sweeps.items()

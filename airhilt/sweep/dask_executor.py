@@ -1,4 +1,4 @@
-"""The client of a sweep: gives requests to the workers of Dask, and takes their outcomes."""
+"""The workers of a Dask scheduler, which do runs for the client that a sweep is."""
 
 from __future__ import annotations
 
@@ -7,15 +7,19 @@ import queue
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
-from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
 
 from distributed import KilledWorker
 
 from airhilt.errors import first_line
-from airhilt.sweep.dask_worker import RunnerPlugin, run_case
+from airhilt.sweep.dask_worker import RunnerPlugin, probe_in, run_case
+from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Machine, Outcome, Request
-from airhilt.sweep.scheduler import SchedulerError
+from airhilt.sweep.runner_process import Limits
+from airhilt.sweep.scheduler import SchedulerError, connect, openness
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -28,6 +32,85 @@ QUIET_S = 5.0
 """Time without a worker after which that is told, in s."""
 LOST = (OSError, RuntimeError, ValueError, CancelledError)
 """Errors of Dask if the scheduler is not there any more; TimeoutError is an OSError."""
+
+
+class DaskExecutor:
+    """Does runs by the workers of a scheduler.
+
+    Parameters
+    ----------
+    expected
+        Environment of the runs; a worker with another one refuses to run anything.
+    notice
+        Is told once if there are no workers, and what is open.
+
+    Raises
+    ------
+    SchedulerError
+        The scheduler cannot be reached.
+    """
+
+    def __init__(
+        self,
+        scheduler: str,
+        renderer: str,
+        limits: Limits,
+        expected: Environment,
+        notice: Callable[[str], None],
+    ) -> None:
+        self._stack = ExitStack()
+        self._client = self._stack.enter_context(connect(scheduler))
+        self._workers = Workers(self._client, notice)
+        self._given = renderer, limits, expected
+        if told := openness(self._client.scheduler_info()["address"]):
+            notice(told)
+
+    @property
+    def size(self) -> int:
+        """Number of threads of the workers."""
+        return self._workers.threads()
+
+    def ready(self, stops: Callable[[], bool]) -> str:
+        """Wait for the first worker, or for the user to stop; return the workers in words.
+
+        Raises
+        ------
+        SchedulerError
+            The scheduler is lost.
+        """
+        self._workers.wait(stops)
+        threads = self._client.nthreads()
+        count = len(threads)
+        text = f"{count} worker{'s' * (count != 1)}"
+        if sum(threads.values()) != count:
+            text += f" with {sum(threads.values())} threads"
+        return text
+
+    def outcomes(self, requests: Sequence[Request], stops: Callable[[], bool]) -> Iterator[Outcome]:
+        """Yield outcomes as they come; no more runs are begun once ``stops`` is true.
+
+        Raises
+        ------
+        AirhiltError
+            A worker cannot run anything, or the scheduler is lost.
+        """
+        with ExitStack() as stack:
+            kept = [Path(each.folder).parent for each in requests if each.keep != "none"]
+            probe = stack.enter_context(probe_in(kept[0])) if kept else None
+            plugin = RunnerPlugin(*self._given, probe)
+            stack.enter_context(prepared(self._client, plugin))
+            yield from outcomes(self._client, plugin.name, requests, self._workers, stops)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._stack.close()
 
 
 class Workers:
@@ -95,16 +178,6 @@ def prepared(client: Client, plugin: RunnerPlugin) -> Iterator[None]:
         if client.status == "running":
             with suppress(*LOST):
                 client.unregister_worker_plugin(plugin.name)
-
-
-def described(client: Client, has_dashboard: bool) -> str:
-    """Return workers and dashboard in a few words."""
-    threads = client.nthreads()
-    count = len(threads)
-    text = f"{count} worker{'s' * (count != 1)}"
-    if sum(threads.values()) != count:
-        text += f" with {sum(threads.values())} threads"
-    return f"{text}, dashboard {client.dashboard_link}" if has_dashboard else text
 
 
 def outcomes(

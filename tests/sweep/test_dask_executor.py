@@ -11,7 +11,7 @@ import pytest
 from distributed import KilledWorker
 
 from airhilt.errors import AirhiltError
-from airhilt.sweep.dask_client import IN_HAND_PER_THREAD, Workers, outcomes, prepared
+from airhilt.sweep.dask_executor import IN_HAND_PER_THREAD, Workers, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Outcome, Request
