@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Set
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import NamedTuple
 
 from airhilt.messages import (
     CONTROLLER,
@@ -31,22 +32,42 @@ NOBODY = "nobody"
 """Whom an alert is a nuisance to that names nobody."""
 
 
+class _Telling(NamedTuple):
+    """What an advisory tells somebody, and what was so then."""
+
+    kind: AdvisoryKind
+    sources: tuple[str, ...]
+    traffic: tuple[str, ...]
+    named: tuple[str, ...]
+    """Whom it names as traffic, or tells what to do."""
+    losing: frozenset[str]
+    """Callsigns of its traffic that were going to lose separation from another of it."""
+    to_be_seen: frozenset[frozenset[str]]
+    """Pairs with somebody of its traffic of which a conflict had begun, or was to be seen."""
+    concerns_conflict: bool
+    """True if it was about the annotated pair."""
+    shown: frozenset[str]
+    """Callsigns of the actors that cameras had really shown shortly before."""
+
+
+@dataclass
+class _Alert:
+    """An advisory from when it becomes active until it ends."""
+
+    tellings: list[_Telling] = field(default_factory=list)
+    last_s: float = 0.0
+    """Time of its last revision."""
+
+
 @dataclass
 class AdvisoryRecord:
     """One advisory over its revisions."""
 
     first: Advisory
     """The advisory as it was published first."""
-    traffic: dict[str, None] = field(default_factory=dict)
-    """Whom it has named, in their order."""
-    losing: frozenset[str] = frozenset()
-    """Callsigns of these that were then going to lose separation from another of them."""
-    to_be_seen: frozenset[frozenset[str]] = frozenset()
-    """Pairs with somebody of these of which a conflict had begun then, or was to be seen."""
-    concerns_conflict: bool = False
-    """True if a revision of it was about the annotated pair."""
-    shown: frozenset[str] = frozenset()
-    """Callsigns of the actors that cameras had really shown shortly before a revision."""
+    alerts: list[_Alert] = field(default_factory=list)
+    """Its times of being active; the last one goes on while it is."""
+    is_active: bool = False
     severity: Severity = Severity.INFO
     """Highest severity of all revisions."""
     revisions: set[int] = field(default_factory=set)
@@ -54,8 +75,6 @@ class AdvisoryRecord:
     """True if all that it asks of anybody is to confirm what was heard."""
     unfounded: dict[str, None] = field(default_factory=dict)
     """Names that it says that it rests on and cannot, in their order."""
-    last_s: float = 0.0
-    """Time of its last revision."""
     spoken_ns: int | None = None
     """Time at which its voice was first heard, None if it never was."""
 
@@ -90,22 +109,21 @@ class AdvisoryRecords:
         if record is None:
             record = AdvisoryRecord(advisory)
             self._records[advisory.id] = record
-        if advisory.revision in record.revisions:
-            return False
+        is_new = advisory.revision not in record.revisions
         record.revisions.add(advisory.revision)
         record.is_question &= _is_question(advisory)
         record.unfounded |= dict.fromkeys(unfounded)
-        record.last_s = advisory.t_ns / SECOND_NS
         record.severity = max(record.severity, advisory.severity, key=lambda one: one.rank)
-        record.traffic |= dict.fromkeys(self._traffic(advisory))
-        record.losing |= self._losing(advisory)
-        everybody = set(self._callsigns.values())
-        named = everybody.intersection(self._traffic(advisory))
-        pairs = ((one, other) for one in named for other in everybody - {one})
-        record.to_be_seen |= {frozenset(pair) for pair in pairs if self._shows(pair)}
-        record.concerns_conflict |= self._concerns_conflict(advisory)
-        record.shown |= self._shown(advisory)
-        return True
+        if advisory.active and not record.is_active:
+            record.alerts.append(_Alert())
+        record.is_active = advisory.active
+        if advisory.active:
+            record.alerts[-1].last_s = advisory.t_ns / SECOND_NS
+            if advisory.severity.rank >= SPEAK_MIN_LEVEL.rank and not _is_question(advisory):
+                telling = self._telling(advisory)
+                if telling not in record.alerts[-1].tellings[-1:]:
+                    record.alerts[-1].tellings.append(telling)
+        return is_new
 
     def add_voice(self, identity: str, t_ns: int) -> None:
         """Add when the voice of an advisory began."""
@@ -125,12 +143,15 @@ class AdvisoryRecords:
         )
 
     def nuisance_alerts(self, incursions: Iterable[RunwayIncursion]) -> int:
-        """Return how often an alert names somebody in no conflict, annotated or real."""
+        """Return how often an alert concerns somebody in no conflict, annotated or real.
+
+        It counts once for each whom it names or tells what to do, each time that it is active.
+        """
         involved = _involved(incursions)
         return sum(
-            len(self._nuisance_to(record, involved))
+            len(self._nuisance_to(alert, involved))
             for record in self._records.values()
-            if record.severity.rank >= SPEAK_MIN_LEVEL.rank
+            for alert in record.alerts
         )
 
     def clarifications(self) -> int:
@@ -149,30 +170,62 @@ class AdvisoryRecords:
                 t_spoken_s=ns_to_seconds(record.spoken_ns),
                 severity=record.severity,
                 revisions=len(record.revisions),
-                nuisance_to=self._nuisance_to(record, involved),
+                nuisance_to=tuple(
+                    dict.fromkeys(
+                        name
+                        for alert in record.alerts
+                        for name in self._nuisance_to(alert, involved)
+                    )
+                ),
                 unfounded=tuple(record.unfounded),
             )
             for record in self._records.values()
         ]
 
+    def _telling(self, advisory: Advisory) -> _Telling:
+        traffic = self._traffic(advisory)
+        everybody = set(self._callsigns.values())
+        known = everybody.intersection(traffic)
+        pairs = ((one, other) for one in known for other in everybody - {one})
+        return _Telling(
+            kind=advisory.kind,
+            sources=advisory.evidence.sources,
+            traffic=traffic,
+            named=tuple(dict.fromkeys((*traffic, *self._ordered(advisory)))),
+            losing=self._losing(advisory),
+            to_be_seen=frozenset(frozenset(pair) for pair in pairs if self._shows(pair)),
+            concerns_conflict=self._concerns_conflict(advisory),
+            shown=self._shown(advisory),
+        )
+
+    def _ordered(self, advisory: Advisory) -> Iterator[str]:
+        """Yield the callsigns of those whom an advisory tells what to do."""
+        told = {advisory.recipient: advisory.recommendation, **advisory.recommendations}
+        for name, order in told.items():
+            if name in self._callsigns and not isinstance(order, Confirm | None):
+                yield self._callsigns[name]
+
     def _concerns_conflict(self, advisory: Advisory) -> bool:
         pair = frozenset(self._pair or ())
-        is_of_pair = self._concerns(advisory, pair, self._shown(advisory))
+        is_of_pair = self._concerns(
+            self._traffic(advisory), advisory.evidence.sources, pair, self._shown(advisory)
+        )
         return self._pair is not None and is_of_pair and self._shows(self._pair)
 
-    def _concerns(self, advisory: Advisory, actors: Set[str], shown: Set[str]) -> bool:
-        """Return true if an advisory is about some actors that are in one conflict.
+    def _concerns(
+        self, traffic: Iterable[str], sources: Collection[str], actors: Set[str], shown: Set[str]
+    ) -> bool:
+        """Return true if an advisory of some traffic is about actors that are in one conflict.
 
         It names all of them, whoever else, or one and nothing else with a callsign. What rests on
         cameras must then have shown another one, whatever it was taken for; what rests on ADS-B
         alone must name all.
         """
-        named = {name for name in self._traffic(advisory) if name in self._callsigns}
+        named = {name for name in traffic if name in self._callsigns}
         if actors and actors <= named:
             return True
         if not named or not named <= actors:
             return False
-        sources = advisory.evidence.sources
         if "vision" in sources:
             return not shown.isdisjoint(actors - named)
         return "radio" in sources
@@ -195,30 +248,39 @@ class AdvisoryRecords:
         loss_s = self._monitor.time_to_loss_s(pair)
         return loss_s is not None and loss_s <= JUSTIFIED_WITHIN_S
 
-    def _nuisance_to(self, record: AdvisoryRecord, involved: Iterable[Involved]) -> tuple[str, ...]:
-        """Return whom an alert names that is in no conflict, annotated or real.
+    def _nuisance_to(self, alert: _Alert, involved: Sequence[Involved]) -> tuple[str, ...]:
+        """Return whom an alert concerns that was in no conflict by then, annotated or real.
 
         In a scenario without a conflict, that are all whom an alert names whose conflict did not
-        happen.
+        happen. What is told before a conflict shows is not excused by what is told afterwards.
         """
-        traffic = tuple(record.traffic)
-        if record.is_question:
-            return ()
         in_conflict: set[str] = set()
-        if record.concerns_conflict:
-            in_conflict.update(self._pair or ())
-        if record.first.kind != "loss_of_separation":
+        found: dict[str, None] = {}
+        for telling in alert.tellings:
+            in_conflict |= self._in_conflict(telling, involved, alert.last_s)
+            if in_conflict:
+                strangers = [name for name in telling.named if name in self._callsigns]
+                found |= dict.fromkeys(name for name in strangers if name not in in_conflict)
+            else:
+                found |= dict.fromkeys(telling.named or (NOBODY,))
+        return tuple(found)
+
+    def _in_conflict(
+        self, telling: _Telling, involved: Iterable[Involved], last_s: float
+    ) -> set[str]:
+        """Return who is in a conflict that is told of, annotated or real."""
+        found: set[str] = set()
+        if telling.concerns_conflict:
+            found.update(self._pair or ())
+        if telling.kind != "loss_of_separation":
             for actors, t_s in involved:
-                is_seen = actors in record.to_be_seen if len(actors) > 1 else t_s <= record.last_s
-                if is_seen and self._concerns(record.first, actors, record.shown):
-                    in_conflict |= actors
+                is_seen = actors in telling.to_be_seen if len(actors) > 1 else t_s <= last_s
+                about = telling.traffic, telling.sources, actors, telling.shown
+                if is_seen and self._concerns(*about):
+                    found |= actors
         elif self._pair is not None:
-            in_conflict |= record.losing
-        if not in_conflict:
-            return traffic or (NOBODY,)
-        return tuple(
-            name for name in traffic if name in self._callsigns and name not in in_conflict
-        )
+            found |= telling.losing
+        return found
 
 
 def _is_question(advisory: Advisory) -> bool:

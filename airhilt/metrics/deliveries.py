@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from airhilt.messages import (
+    ADVISORY_CALL,
     AdsbReport,
     Advisory,
     Detections,
@@ -78,7 +79,9 @@ class Deliveries:
             self._begun_ns[record.worker] = record.t_start_ns
 
     def take(self, key: str, message: Message) -> None:
-        """Note a message that may be evidence; others are ignored."""
+        """Note a message that may be evidence; the voice of an advisory is none."""
+        if str(getattr(message, "id", "")).startswith(ADVISORY_CALL):
+            return
         match message:
             case SpokenTruth(id=name):
                 self._item("radio", name).concerns |= self._known(

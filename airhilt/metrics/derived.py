@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from airhilt.messages import Severity
 from airhilt.metrics.outcome import INFRINGEMENTS, SERIOUS
+from airhilt.world.flight.guard import ENVELOPE_EXCEEDED, GROUND_CONTACT
 
 Json = Mapping[str, Any]
 
@@ -54,7 +55,9 @@ def _missed(summary: Json) -> bool | None:
 
 def _lost(summary: Json) -> bool:
     happened = any(summary.get(name) for name in INFRINGEMENTS)
-    return happened or summary.get("runway_incursion_category") in SERIOUS
+    ends = (summary.get("ended_actors") or {}).values()
+    crashed = any(cause.startswith((GROUND_CONTACT, ENVELOPE_EXCEEDED)) for cause in ends)
+    return happened or crashed or summary.get("runway_incursion_category") in SERIOUS
 
 
 def _severities(summary: Json) -> list[Severity]:
@@ -131,7 +134,7 @@ DERIVED = (
         "lost",
         "bool",
         "any two lost separation, came to an NMAC, collided, or came to a runway incursion of "
-        "category A or B or an accident",
+        "category A or B or an accident; or an aircraft hit the ground or exceeded its envelope",
         _lost,
     ),
     Derived(

@@ -107,11 +107,12 @@ class Outcome:
         return truth is not None and not truth.first_ns.keys().isdisjoint(AT_LEAST[declared])
 
     def avoided(self, was_warned: bool) -> bool | None:
-        """Return true if the conflict was avoided after a warning, None if nothing happened."""
-        truth = self.pair_truth
-        if truth is not None and truth.first_ns.keys() & INFRINGEMENTS:
-            return False
-        if self._pair_in_serious_incursion():
+        """Return true if the conflict was avoided after a warning, None if nothing happened.
+
+        It was not if one of the pair came to harm, with whomever: who evades one aircraft into
+        another, or into the ground, has avoided nothing.
+        """
+        if self._pair_came_to_harm():
             return False
         return True if was_warned else None
 
@@ -135,6 +136,22 @@ class Outcome:
         if was_warned:
             return "avoided_by_equipment"
         return "missed" if has_opened else "no_conflict"
+
+    def _pair_came_to_harm(self) -> bool:
+        if self._pair is None:
+            truth = self.pair_truth
+            return truth is not None and not truth.first_ns.keys().isdisjoint(INFRINGEMENTS)
+        own = set(self._pair)
+        infringed = any(
+            not truth.first_ns.keys().isdisjoint(INFRINGEMENTS)
+            for pair, truth in self._monitor.pairs.items()
+            if own.intersection(pair) and frozenset(pair) not in self._causes
+        )
+        incurred = any(
+            incursion.category in SERIOUS and own & {incursion.user, incursion.intruder}
+            for incursion in self.incursions()
+        )
+        return infringed or incurred or not self._monitor.flying(self._pair)
 
     def _pair_in_serious_incursion(self) -> bool:
         pair = set(self._pair or ())

@@ -526,8 +526,9 @@ class Summary(_Part):
         description="the most severe: accident, A, B, C, D; null if there was none"
     )
     avoided: bool | None = Field(
-        description="somebody was warned of the annotated conflict, and the pair neither lost "
-        "separation, nor came to an NMAC or an incursion of category A or B, nor collided; null "
+        description="somebody was warned of the annotated conflict, and neither of the pair lost "
+        "separation from anybody, came to an NMAC or an incursion of category A or B, collided, or "
+        "hit the ground; null "
         "if nobody was warned, or equipment of the world acted first, and nothing of that happened"
     )
     conflict_outcome: ConflictOutcome = Field(

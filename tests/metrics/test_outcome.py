@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -23,7 +24,7 @@ def approach(horizontal_m: float, vertical_m: float = 0.0, t_s: float = 10.0) ->
 
 
 def outcome(pairs: dict[Any, PairTruth], pair: Any = None, incursions: Any = None) -> Outcome:
-    monitor = SimpleNamespace(pairs=pairs)
+    monitor = SimpleNamespace(pairs=pairs, flying=lambda _: True)
     runways = (
         None if incursions is None else SimpleNamespace(incursions=dict(enumerate(incursions)))
     )
@@ -69,15 +70,24 @@ def test_of_the_annotated_pair_the_approach_in_the_conflict_window_counts() -> N
         ("B", PAIR, True, False),
         ("C", PAIR, True, True),
         ("C", PAIR, False, None),
-        ("A", ("AAL1", "OPS1"), True, True),
+        ("A", ("AAL1", "OPS1"), True, False),
+        ("A", ("UAL3", "OPS1"), True, True),
     ],
 )
-def test_a_serious_incursion_of_the_pair_was_not_avoided(
+def test_a_serious_incursion_of_one_of_the_pair_was_not_avoided(
     category: str, names: tuple[str, str], was_warned: bool, avoided: bool | None
 ) -> None:
     found = outcome({}, PAIR, [incursion(category, *names)])
     assert found.avoided(was_warned) is avoided
-    assert found.came_about("runway_incursion") is (avoided is False)
+    assert found.came_about("runway_incursion") is (category in "AB" and names == PAIR)
+
+
+def test_who_evades_one_aircraft_into_another_or_into_the_ground_has_avoided_nothing() -> None:
+    pairs = {PAIR: PairTruth(), ("AAL1", "UAL3"): PairTruth(first_ns={"nmac": 1})}
+    assert outcome(pairs, PAIR).conflict(True, True, True) == "lost"
+    monitor = SimpleNamespace(pairs={}, flying=lambda _: False)
+    crashed = Outcome(cast(Any, monitor), None, PAIR)
+    assert crashed.conflict(was_warned=True, has_opened=True, is_credited=True) == "lost"
 
 
 def test_a_collision_that_begins_the_conflict_is_no_outcome_of_it() -> None:
@@ -125,7 +135,7 @@ def records(
     pair: Any = PAIR,
     seen_ns: dict[str, int] | None = None,
     loss_s: float | None = None,
-    shows: bool = True,
+    shows: Callable[[], bool] = lambda: True,
 ) -> AdvisoryRecords:
     callsigns = {name: name for name in ("AAL1", "DAL2", "OPS1")} | {"abc123": "AAL1"}
     monitor = SimpleNamespace(time_to_loss_s=lambda _: loss_s)
@@ -135,12 +145,12 @@ def records(
         pair,
         cast(Any, monitor),
         lambda name, since_ns: seen.get(name, -1) >= since_ns,
-        lambda _: shows,
+        lambda _: shows(),
     )
 
 
 def test_a_warning_before_anything_of_the_conflict_shows_is_a_nuisance_to_the_pair() -> None:
-    told = records(shows=False)
+    told = records(shows=lambda: False)
     told.add(advisory(traffic=PAIR))
     assert not told.warns_of_conflict(advisory(traffic=PAIR))
     assert told.nuisance_alerts([]) == 2
@@ -212,7 +222,7 @@ def test_an_alert_about_an_incursion_or_the_pair_is_no_nuisance_and_a_question_n
     assert told.nuisance_alerts([real]) == 0
     assert told.nuisance_alerts([]) == 2
     assert told.clarifications() == 1
-    assert [bool(each.nuisance_to) for each in told.summaries([])] == [False, True, False, True]
+    assert [bool(each.nuisance_to) for each in told.summaries([])] == [False, True, False, False]
 
 
 def test_an_alert_is_a_nuisance_to_each_whom_it_names_and_who_is_in_no_conflict() -> None:
@@ -224,7 +234,7 @@ def test_an_alert_is_a_nuisance_to_each_whom_it_names_and_who_is_in_no_conflict(
     assert told.warns_of_conflict(advisory(traffic=(*PAIR, "OPS1")))
 
 
-def test_each_revision_counts_once_and_the_gravest_of_all() -> None:
+def test_each_revision_is_judged_by_what_any_recipient_was_told() -> None:
     told = records()
     assert told.add(advisory(severity=Severity.CAUTION))
     assert not told.add(advisory(severity=Severity.WARNING))
@@ -235,7 +245,42 @@ def test_each_revision_counts_once_and_the_gravest_of_all() -> None:
     told.add_voice("b", 1)
     (summary,) = told.summaries([])
     assert (summary.t_first_s, summary.t_spoken_s) == (100.0, 105.0)
-    assert (summary.severity, summary.revisions) == (Severity.CAUTION, 3)
+    assert (summary.severity, summary.revisions) == (Severity.WARNING, 3)
+
+
+def test_an_alert_behind_a_mild_copy_of_it_is_an_alert() -> None:
+    told = records(None)
+    told.add(advisory(kind="clarification", recipient="ATC", severity=Severity.INFO))
+    told.add(advisory(kind="clarification", severity=Severity.WARNING,
+                      recommendation=GoAround(runway="01")))  # fmt: skip
+    assert told.nuisance_alerts([])
+    assert not told.clarifications()
+
+
+def test_an_alert_counts_anew_each_time_that_it_comes_again() -> None:
+    told = records(None)
+    for second in range(6):
+        told.add(advisory(revision=second, traffic=("OPS1",), active=second % 2 == 0))
+    assert told.nuisance_alerts([]) == 3
+    assert [each.nuisance_to for each in told.summaries([])] == [("OPS1",)]
+
+
+def test_what_is_told_before_a_conflict_shows_is_not_excused_by_what_is_told_after() -> None:
+    begun: list[bool] = []
+    told = records(shows=lambda: bool(begun))
+    told.add(advisory(traffic=PAIR))
+    begun.append(True)
+    told.add(advisory(revision=1, traffic=PAIR))
+    assert told.nuisance_alerts([]) == 2
+
+
+def test_a_bystander_who_is_told_to_act_is_disturbed_though_not_named() -> None:
+    told = records()
+    told.add(advisory(traffic=PAIR))
+    told.add(advisory(traffic=PAIR, recipient="OPS1", recommendation=GoAround(runway="01")))
+    told.add(advisory(traffic=PAIR, recipient="ATC", revision=1,
+                      recommendations={"OPS1": GoAround(runway="01")}))  # fmt: skip
+    assert [each.nuisance_to for each in told.summaries([])] == [("OPS1",)]
 
 
 @pytest.mark.parametrize(

@@ -181,8 +181,9 @@ def test_avoided_lost_missed_and_no_conflict_exclude_each_other_and_cover_all(
 ) -> None:
     truth = PairTruth(first_ns=dict.fromkeys(harm, 1))
     monitor = SimpleNamespace(
-        pairs={(FIRST, SECOND): truth}, time_to_loss_s=lambda _: 60.0, flying=lambda _: False
-    )
+        pairs={(FIRST, SECOND): truth}, time_to_loss_s=lambda _: 60.0,
+        flying=lambda _: True, is_seen_by_tcas=lambda _: False,
+    )  # fmt: skip
     collector = Collector(SCENARIO, 0.0, cast(Any, monitor), None, Plans([], {}, {}))
     messages: list[AdsbReport | ConflictTruth | Advisory] = [report(0), report(1)]
     if opens_s is not None:

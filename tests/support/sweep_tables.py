@@ -53,7 +53,7 @@ def sweep_row(scenario: str, assistant: str, seed: int, **given: Any) -> Row:
     return {
         "key": hashlib.sha256(content.encode()).hexdigest(), "family": family,
         "status": "finished", "cause": "", "duration_s": 120.0, "nominal": False,
-        "nuisance_alerts": 0, **identity, **given,
+        "nuisance_alerts": 0, "clarifications": 0, **identity, **given,
     }  # fmt: skip
 
 

@@ -151,6 +151,11 @@ def test_harm_in_a_twin_disturbs_it_though_nobody_was_alerted() -> None:
     assert youden_index(harmed, NOBODY).value == 0.0
 
 
+def test_who_asks_about_everything_disturbs_every_twin() -> None:
+    asked = [row(name, nominal=True, clarifications=7) for name in MANY]
+    assert youden_index(Tried(tried().conflicts, asked), NOBODY).value == 0.0
+
+
 def test_the_highest_index_stands_first_in_the_ranking() -> None:
     table = ranking.table({"silent": tried(lost=6), "good": tried(disturbed=1)}, NOBODY)
     assert [line[0] for line in table.rows] == ["good", "silent"]

@@ -114,8 +114,8 @@ def youden_index(tried: Tried, nobody: Sequence[Row]) -> Estimate:
 
 
 def is_undisturbed(twin: Row) -> bool:
-    """Return whether nobody was alerted in a nominal twin, and nobody came to harm."""
-    return twin["nuisance_alerts"] == 0 and not twin["lost"]
+    """Return whether nobody was alerted or asked in a nominal twin, nor came to harm."""
+    return not (twin["nuisance_alerts"] or twin["clarifications"] or twin["lost"])
 
 
 def table(tried: Mapping[str, Tried], nobody: Sequence[Row]) -> Table:
@@ -132,8 +132,8 @@ def table(tried: Mapping[str, Tried], nobody: Sequence[Row]) -> Table:
             "Index: share of the conflicts averted, less those brought about, plus the share of "
             "nominal twins undisturbed, minus 1 (Youden). Averted: no harm to anybody, of the runs "
             "with harm without an assistant. Brought about: harm, of the others. Undisturbed: no "
-            "alert and no harm in the same traffic without its conflict, over which nuisance is "
-            "counted too. `silent` and `cry_wolf` "
+            "alert, no question and no harm in the same traffic without its conflict, over which "
+            "nuisance is counted too. `silent` and `cry_wolf` "
             "are negative controls. Each is ranked over the scenarios that it is made for.",
             NOTE,
         ),
