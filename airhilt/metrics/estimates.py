@@ -60,6 +60,13 @@ class Estimate:
         )
         return Estimate(value, low, high, self.n)
 
+    def within(self, least: float, greatest: float) -> Estimate:
+        """Return the estimate with its limits in the range that is possible."""
+        low, high = (
+            None if one is None else min(max(one, least), greatest) for one in (self.low, self.high)
+        )
+        return Estimate(self.value, low, high, self.n)
+
 
 UNKNOWN = Estimate(None, None, None, 0)
 

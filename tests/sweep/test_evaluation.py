@@ -58,7 +58,9 @@ def row(scenario: str = "s01a_one", seed: int = 0, **fields: Any) -> dict[str, A
         "latencies_vision_p50_s": None, "collision": False, "nmac": False,
         "loss_of_separation": False, "runway_incursion_category": None,
         "first_detection_range_m": None, "costs_go_arounds": 0, "costs_rejected_takeoffs": 0,
-        "radio_occupied_s": 20.0,
+        "radio_occupied_s": 20.0, "costs_level_deviation_ft_s": 0.0,
+        "costs_path_deviation_nm_s": 0.0, "costs_advice_spoken_s": 4.0,
+        "time_to_first_warning_after_window_s": 6.0,
         **{f"first_warning_parts_{part}_s": 1.0 for part in PARTS}, **fields,
     }  # fmt: skip
 
@@ -187,19 +189,21 @@ def test_what_is_missed_stands_against_what_disturbs_in_a_figure() -> None:
     rows["none"] = list(NOBODY)
     for factor, missed in ("_x0.5", 6), ("", 3), ("_x2", 0):
         rows[f"surf_a{factor}"] = [
-            row(name, missed=place < missed) for place, name in enumerate(MANY)
+            row(name, warned=place >= missed) for place, name in enumerate(MANY)
         ]
         rows[f"twins_surf_a{factor}"] = [
             row(name, nominal=True, nuisance_alerts=6 - missed) for name in MANY
         ]
     characteristic, ranked = roc.tables(Results(NO_CAMERAS, rows))
-    assert text(cells(characteristic, "surf_a", "1")["missed"]).startswith("3 of 8")
+    assert text(cells(characteristic, "surf_a", "1")["missed"]).startswith("3 of 6"), (
+        "of the runs with harm"
+    )
     points = [
         (cells(characteristic, "surf_a", factor)["nuisance, 1/h"].value,
          cells(characteristic, "surf_a", factor)["missed"].value)
         for factor in ("0.5", "1", "2")
     ]  # fmt: skip
-    assert points == [(0.0, 0.75), (6.0, 0.375), (12.0, 0.0)]
+    assert points == [(0.0, 1.0), (6.0, 0.5), (12.0, 0.0)]
     assert cells(ranked, "surf_a")["twins undisturbed"].value == 0.0
     document = {
         "preset": "roc", "seeds": 1, "options": {}, "sweeps": {},

@@ -28,7 +28,7 @@ TWINS = "twins_"
 """Beginning of the names of the sweeps of nominal twins; the assistant's name follows."""
 COLUMNS = (
     "assistant", "index", "averted", "brought about", "twins undisturbed", "warning, s",
-    "nuisance, 1/h", *COSTS,
+    "warning after window, s", "nuisance, 1/h", "questions, 1/h", *COSTS,
 )  # fmt: skip
 
 
@@ -110,7 +110,7 @@ def youden_index(tried: Tried, nobody: Sequence[Row]) -> Estimate:
         above[place] += is_undisturbed(row)
         below[place] += 1
     found = sum_of_ratios(above, below, len(conflicts) + len(tried.twins))
-    return found.plus(-1.0)
+    return found.plus(-1.0).within(-1.0, 1.0)
 
 
 def is_undisturbed(twin: Row) -> bool:
@@ -133,8 +133,9 @@ def table(tried: Mapping[str, Tried], nobody: Sequence[Row]) -> Table:
             "nominal twins undisturbed, minus 1 (Youden). Averted: no harm to anybody, of the runs "
             "with harm without an assistant. Brought about: harm, of the others. Undisturbed: no "
             "alert, no question and no harm in the same traffic without its conflict, over which "
-            "nuisance is counted too. `silent` and `cry_wolf` "
-            "are negative controls. Each is ranked over the scenarios that it is made for.",
+            "nuisance and questions are counted too. Warning: mean time from the event by which "
+            "the conflict comes about, and from the opening of its window, to the first warning. "
+            "`silent` and `cry_wolf` are negative controls. Each is ranked over the scenarios that it is made for.",
             NOTE,
         ),
         figure=Scatter(x="twins undisturbed", y="averted"),
@@ -156,6 +157,8 @@ def _cells(tried: Tried, index: Estimate, baselines: Baselines) -> tuple[Cell, .
         share(scores.share_where(others, lambda row: bool(row["lost"]))),
         share(scores.share_where(twins, is_undisturbed)),
         number(scores.mean(tried.conflicts, "time_to_first_warning_s"), 1),
+        number(scores.mean(tried.conflicts, "time_to_first_warning_after_window_s"), 1),
         number(scores.nuisance_per_hour(tried.twins)),
+        number(scores.per_hour(tried.twins, "clarifications")),
         *costs(tried.conflicts, baselines),
     )

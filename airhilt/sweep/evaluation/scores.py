@@ -116,7 +116,8 @@ def _clusters(rows: Sequence[Row]) -> IntArray:
     return clusters_of([row["scenario"] for row in rows], [row["seed"] for row in rows])
 
 
-def _per_hour(rows: Sequence[Row], column: str) -> Estimate:
+def per_hour(rows: Sequence[Row], column: str) -> Estimate:
+    """Return the sum of a column in an hour of the runs."""
     hours = [row["duration_s"] / HOUR_S for row in rows]
     return rate_of([row[column] for row in rows], hours, _clusters(rows))
 
@@ -154,7 +155,7 @@ def margin_over_well_clear(rows: Sequence[Row], baselines: Baselines) -> Estimat
 def nuisance_per_hour(rows: Sequence[Row]) -> Estimate:
     """Return the nuisance alerts in an hour of nominal traffic, where they were counted."""
     counted = known(rows, "nuisance_alerts")
-    return _per_hour([row for row in counted if row["nominal"] is True], "nuisance_alerts")
+    return per_hour([row for row in counted if row["nominal"] is True], "nuisance_alerts")
 
 
 def broken_off(row: Row) -> int:
@@ -162,20 +163,10 @@ def broken_off(row: Row) -> int:
     return int(row["costs_go_arounds"] + row["costs_rejected_takeoffs"])
 
 
-def occupied_s(row: Row) -> float:
-    """Return for how long somebody was on the air in a run."""
-    return float(row["radio_occupied_s"])
-
-
 def added(rows: Sequence[Row], baselines: Baselines, number: Callable[[Row], float]) -> Estimate:
     """Return the mean of a number of runs less that of the runs without an assistant."""
     paired = [row for row in rows if pair_of(row) in baselines.nobody]
     return mean_over(paired, lambda row: number(row) - number(baselines.nobody[pair_of(row)]))
-
-
-def advisories_per_hour(rows: Sequence[Row]) -> Estimate:
-    """Return the advisories of any severity in an hour of the runs."""
-    return _per_hour(rows, "advisories")
 
 
 def followed_by_loss(

@@ -8,7 +8,7 @@ from itertools import product
 from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation import ranking, scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, REFERENCE, shipped_scenarios
-from airhilt.sweep.evaluation.costs import COSTS, NOTE, costs
+from airhilt.sweep.evaluation.costs import EVERY_COST, NOTE, costs
 from airhilt.sweep.evaluation.harms import harms_table
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import Baselines
@@ -93,14 +93,14 @@ def _families(results: Results, baselines: Baselines) -> Table:
 
 def _costs(results: Results, baselines: Baselines) -> Table:
     rows = [
-        (family, each.name, *costs(own, baselines))
+        (family, each.name, *costs(own, baselines, EVERY_COST))
         for family, each in product(_names(results), ASSISTANTS)
         if (own := _of_family(results.rows[each.name], family))
     ]
     return Table(
         name="costs",
         title="What it costs people",
-        columns=("family", "assistant", *COSTS),
+        columns=("family", "assistant", *EVERY_COST),
         rows=tuple(rows),
         notes=(NOTE,),
     )

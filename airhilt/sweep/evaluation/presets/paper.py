@@ -14,11 +14,11 @@ from airhilt.sweep.evaluation import ranking
 from airhilt.sweep.evaluation.assistants import Assistant, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import (
-    advisories_per_hour,
     broken_off,
     mean,
     mean_over,
     median,
+    per_hour,
     share,
     values,
 )
@@ -162,7 +162,7 @@ def _variant(name: str, rows: Sequence[Row]) -> tuple[Cell, ...]:
         *(_plain(rows, f"first_warning_parts_{part}_s") for part in PARTS),
         share_cell(share(rows, "avoided")),
         number(mean_over(rows, broken_off), 2),
-        number(advisories_per_hour(rows)),
+        number(per_hour(rows, "advisories")),
     )
 
 

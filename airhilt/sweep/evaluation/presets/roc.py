@@ -66,13 +66,15 @@ def _scaled(settings: Mapping[str, Any], factor: float) -> dict[str, Any]:
 def tables(results: Results) -> Sequence[Table]:
     """Return the points of the curves, and the ranking of the assistants as they ship."""
     tried, nobody = ranking.tried(results.rows), results.rows[NONE]
+    lost = {scores.pair_of(row) for row in nobody if row["lost"]}
     rows: list[tuple[Cell, ...]] = []
     for each in (*ASSISTANTS, *CONTROLS):
         for factor in FACTORS:
             own = tried.get(_labelled(each.name, factor))
             if own is None:
                 continue
-            missed = share(scores.share(own.conflicts, "missed"))
+            harmful = [row for row in own.conflicts if scores.pair_of(row) in lost]
+            missed = share(scores.share_where(harmful, lambda row: not row["warned"]))
             nuisance = number(scores.nuisance_per_hour(own.twins))
             index = number(ranking.youden_index(own, nobody), 2)
             rows.append((each.name, f"{factor:g}", missed, nuisance, index))
@@ -82,9 +84,9 @@ def tables(results: Results) -> Sequence[Table]:
         columns=("assistant", "thresholds times", "missed", "nuisance, 1/h", "index"),
         rows=tuple(rows),
         notes=(
-            "Missed: share of the conflicts of which nobody was warned. Nuisance: alerts in an "
-            "hour of the nominal twins. Thresholds: the times to a conflict from which an "
-            "assistant tells of it; one without any has one point. In brackets, and as bands: "
+            "Missed: share of the runs with harm without an assistant in which nobody was warned. "
+            "Nuisance: alerts in an hour of the nominal twins. Thresholds: the times to a conflict "
+            "from which an assistant tells of it; one without any has one point. In brackets, and as bands: "
             "95 % interval.",
         ),
         figure=Scatter(x="nuisance, 1/h", y="missed", x_scale="symlog"),
