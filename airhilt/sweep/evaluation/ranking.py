@@ -135,7 +135,8 @@ def table(tried: Mapping[str, Tried], nobody: Sequence[Row]) -> Table:
             "alert, no question and no harm in the same traffic without its conflict, over which "
             "nuisance and questions are counted too. Warning: mean time from the event by which "
             "the conflict comes about, and from the opening of its window, to the first warning. "
-            "`silent` and `cry_wolf` are negative controls. Each is ranked over the scenarios that it is made for.",
+            "`silent` and `cry_wolf` are negative controls. Each is ranked over the scenarios that "
+            "it is made for.",
             NOTE,
         ),
         figure=Scatter(x="twins undisturbed", y="averted"),

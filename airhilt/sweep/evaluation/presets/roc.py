@@ -86,8 +86,8 @@ def tables(results: Results) -> Sequence[Table]:
         notes=(
             "Missed: share of the runs with harm without an assistant in which nobody was warned. "
             "Nuisance: alerts in an hour of the nominal twins. Thresholds: the times to a conflict "
-            "from which an assistant tells of it; one without any has one point. In brackets, and as bands: "
-            "95 % interval.",
+            "from which an assistant tells of it; one without any has one point. In brackets, and "
+            "as bands: 95 % interval.",
         ),
         figure=Scatter(x="nuisance, 1/h", y="missed", x_scale="symlog"),
     )
