@@ -47,6 +47,10 @@ class Clause:
         self.told = replace(told, condition=condition)
 
 
+_TRAILING = re.compile(r"(?: (?:and|then|next|good (?:day|night|evening|morning)|goodbye|bye))+$")
+"""Words behind a condition that are no part of it."""
+_THEN_BEHIND = re.compile(r"\S (?:and )?then$")
+"""The end of a condition that belongs to what stands before it: another action follows it."""
 CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
 """Actions that may be followed by a condition with "behind"."""
 SEQUENCED: frozenset[Action] = frozenset(
@@ -103,6 +107,9 @@ _CONSEQUENCE = re.compile(
 """Words of what is to be done under a condition that are no action of this grammar."""
 _AHEAD_OF_YOU = re.compile(r"(?:before|after|behind) (?:you|yours?|that)")
 """Conditions on what somebody else does: "one to depart before you"."""
+_TRAFFIC = re.compile(r"(?:behind|after|once|when) (?:the|that|a|an|landing|departing) ")
+"""Conditions on other traffic: they belong to a clearance on to a runway (ICAO Doc 4444,
+12.2.7)."""
 _TAKEN_OFF = r"(?:airborne|(?:after|on) departure|off the ground|in the air)"
 _AIRBORNE = re.compile(rf"(?<!\S){_TAKEN_OFF}(?!\S)")
 _ONLY_AIRBORNE = re.compile(rf"(?:(?:when|once) )?{_TAKEN_OFF}")
@@ -131,6 +138,7 @@ def attach(conditions: list[Span], clauses: list[Clause], text: str) -> None:
             if before and " " in words:
                 before.told = replace(before.told, until=words)
             continue
+        words = _TRAILING.sub("", words.rstrip(" |"))
         after = [each for each in clauses if each.start >= span.end]
         for clause in _owners(words, before, after, text, span):
             clause.wait(words)
@@ -149,6 +157,11 @@ def _owners(
     between = text[before.end : span.start] if before else ""
     is_behind = before is not None and not between.strip()
     last = [before] if before else []
+    said = text[span.start : span.end].strip(" |")
+    if before and is_behind and _THEN_BEHIND.search(said) and before.told.condition is None:
+        return last
+    if before and is_behind and _is_onto_runway(before, after) and _TRAFFIC.match(words):
+        return last
     if _CONTINGENT.match(words) and not _WHEN_ABLE.match(words):
         return after or ([] if _CONSEQUENCE.search(words) else last)
     if before and before.is_expected and _IN_A_WHILE.fullmatch(between):
@@ -169,7 +182,8 @@ def _owners(
         return []
     if after and _AIRBORNE.search(words):  # Nobody is airborne before the take-off.
         later = [each for each in after if each.told.action not in CLEARANCES]
-        return later[:1] or (after[:1] if _ONLY_AIRBORNE.fullmatch(words) else [])
+        own = last if before and before.told.action not in CLEARANCES else after[:1]
+        return later[:1] or (own if _ONLY_AIRBORNE.fullmatch(words) else [])
     if kind == "behind":
         is_again = not event and (before is None or before.told.condition)
         after = [] if is_again else [e for e in after if e.told.action in CONDITIONED][:1]
@@ -177,6 +191,15 @@ def _owners(
     if not event and kind != "airborne":
         return []
     return after[:1] or last
+
+
+def _is_onto_runway(before: Clause, after: list[Clause]) -> bool:
+    """Return whether the clearance before a condition leads on to a runway, and no later one."""
+    return (
+        before.told.action in _ENTERING
+        and before.told.condition is None
+        and not any(each.told.action in _ENTERING for each in after)
+    )
 
 
 def merge_levels(clauses: list[Clause], text: str) -> None:

@@ -20,6 +20,7 @@ from airhilt.phraseology.call import (
 )
 from airhilt.phraseology.clauses import Line, Span
 from airhilt.phraseology.conditions import (
+    SEQUENCED,
     YIELDED,
     Clause,
     attach,
@@ -32,7 +33,7 @@ from airhilt.phraseology.forms import Segment
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
 from airhilt.phraseology.questions import asks, is_asked_afterwards
-from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
+from airhilt.phraseology.slots import FIX, LEVEL, LEVEL_WORDS, PRESSURE, SHORTENED
 from airhilt.phraseology.vocabulary import has_unknown, has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
 
@@ -65,6 +66,9 @@ _ORDERS = re.compile(
     rf"(?:{'|'.join(_VERBS)})(?!\S)"
 )
 """Beginning of an order, behind courtesies."""
+_AT = re.compile(r"(?:at|passing|leaving|reaching|crossing|over|abeam) ")
+"""Beginning of words behind an action that say where or when it is done."""
+_AT_PLACE = re.compile(rf"{_AT.pattern}(?:{LEVEL_WORDS}|{FIX})")
 _PASSING = re.compile(r" ?(?:climbing|descending)(?!\S)")
 """Words behind a level that is only passed."""
 
@@ -106,7 +110,8 @@ def content_of(words: Words) -> Content:
     withdraw(clauses)
     put_in_order(clauses, line.texts, text)
     gaps = _gaps(clauses, line, plain)
-    content.is_unread = any(
+    gaps, is_lost = _wait_for_places(clauses, gaps, plain)
+    content.is_unread = is_lost or any(
         _ORDERS.match(plain, gap.start, gap.end) and (len(gap.words) > 2 or gap.end == len(plain))
         for gap in gaps
     )
@@ -213,6 +218,37 @@ def _gaps(clauses: list[Clause], line: Line, text: str) -> list[_Gap]:
             gaps.append(_Gap(at, start, gap.split()[0], said, heard))
         at = max(at, end)
     return gaps
+
+
+def _wait_for_places(clauses: list[Clause], gaps: list[_Gap], text: str) -> tuple[list[_Gap], bool]:
+    """Let clauses wait for the level or fix named behind them: "turn left at three thousand".
+
+    Return the other gaps, and whether a place stands there that is neither.
+    """
+    left: list[_Gap] = []
+    is_lost = False
+    for gap in gaps:
+        words = text[gap.start : gap.end].strip(" |")
+        own = next(
+            (
+                each
+                for each in clauses
+                if each.end <= gap.start + 1 and not text[each.end : gap.start].strip(" ")
+            ),
+            None,
+        )
+        if (
+            own is None
+            or own.is_expected
+            or own.told.action not in SEQUENCED | {"join"}
+            or not _AT.match(words)
+        ):
+            left.append(gap)
+        elif _AT_PLACE.fullmatch(words) and own.told.condition is None:
+            own.wait(words)
+        else:
+            is_lost = True
+    return left, is_lost
 
 
 def _take_bare(

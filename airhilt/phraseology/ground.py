@@ -65,9 +65,12 @@ _RUNWAY_BEHIND = re.compile(
 _POINT = re.compile(
     rf"(?: (?:to|at) (?:taxiway |{_HOLDING_POINT} )?| {_HOLDING_POINT} )({TAXIWAY})"
 )
+_INTERSECTION = re.compile(rf" at (?:taxiway |intersection )?({TAXIWAY})")
+"""Where on a runway a departure begins (FAA Order JO 7110.65, 3-7-2)."""
 STAND = (
     r"(?:(?:stand|gate|spot|bay|hangar|pad|parking(?: stand)?|ramp|apron|terminal)(?!\S)"
-    rf"(?: (?:{LETTER} )?[0-9]{{1,3}}(?!\S)(?: {LETTER}(?= \||$| via| hold))?)?)"
+    rf"(?: (?:(?:{LETTER}|[a-z]) )?[0-9]{{1,3}}(?!\S)"
+    rf"(?: (?:{LETTER}|[a-z])(?= \||$| via| hold))?)?)"
 )
 """Pattern of a place on the apron, with its number."""
 _STAND = re.compile(rf"(?: (?:to|into|onto|in|on)(?: the| your)?)? ({STAND})(?!\S)")
@@ -116,6 +119,8 @@ def taxi(segment: Segment, action: Action) -> Read | None:
         runway = _RUNWAY_BEHIND.match(after, via.end() - via[0].endswith(" "))
     ahead = None if runway or via is None else runway_before(segment)
     point = _POINT.match(after) or (via and _POINT.match(after, via.end() - via[0].endswith(" ")))
+    if point is None and runway is not None:
+        point = _INTERSECTION.match(after, runway.end())
     to = re.split(r" (?:via|and|at|on)(?!\S)", after)[0]
     place = None if runway or point else _STAND.match(after)
     if place and via is None:
@@ -124,7 +129,8 @@ def taxi(segment: Segment, action: Action) -> Read | None:
         place = _place_behind(after, via)
     stand = place if place and place.re is not _TAXI_TO else None
     place = place or (None if runway or point else _TAXI_TO.match(to))
-    position = taxiway(point[1]) if point else place_name(place[1]) if place else None
+    at_runway = point or (ahead and _INTERSECTION.search(ahead[0]))
+    position = taxiway(at_runway[1]) if at_runway else place_name(place[1]) if place else None
     taken = max((each.end() for each in (runway, via, point, stand) if each), default=0)
     number, side = runway.group(1, 2) if runway else ahead.group(1, 2) if ahead else (None, None)
     is_read = bool(number or position or (via and (via.start() == 0 or not to.strip())))
@@ -152,13 +158,18 @@ def _place_behind(text: str, via: re.Match[str]) -> re.Match[str] | None:
     return _STAND.match(text, end) or _PLACE_BEHIND.match(text, end)
 
 
+def _letter(word: str) -> str | None:
+    """Return the letter that a word spells, or is."""
+    return word.upper() if len(word) == 1 and word.isalpha() else LETTER_OF.get(word)
+
+
 def place_name(words: str) -> str:
     """Return the name of a place on the apron, with its designator: stand B46."""
     *name, last = words.split()
-    if name and last.isdigit() and name[-1] in LETTER_OF:
-        return " ".join((*name[:-1], LETTER_OF[name[-1]] + last))
-    if name and last in LETTER_OF and name[-1].isdigit():
-        return " ".join((*name[:-1], name[-1] + LETTER_OF[last]))
+    if name and last.isdigit() and (letter := _letter(name[-1])):
+        return " ".join((*name[:-1], letter + last))
+    if name and name[-1].isdigit() and (letter := _letter(last)):
+        return " ".join((*name[:-1], name[-1] + letter))
     return words.strip()
 
 

@@ -144,6 +144,18 @@ def _with_sense(instructions: list[Instruction], ceiling_ft: float | None) -> li
     ]
 
 
+_OF_ORDERS = frozenset(
+    {"cleared", "not", "takeoff", "land", "runway", "climb", "descend", "turn", "taxi", "tow",
+     "hold", "cross", "line", "approach"}
+)  # fmt: skip
+"""Words of clearances, orders and prohibitions."""
+
+
+def _is_obscure(kind: Kind, rest: Words) -> bool:
+    """Return whether words clear or forbid something that is not known: whoever hears them asks."""
+    return kind == "unknown" and not _OF_ORDERS.isdisjoint(rest.texts)
+
+
 def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
     words = rest.texts
     present = set(words)
@@ -174,7 +186,11 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         instructions=tuple(content.instructions),
         expected=tuple(content.expected),
         asked=tuple(content.asked),
-        unread=naming.addressed_first and content.is_unread and not content.asked,
+        unread=(
+            naming.addressed_first
+            and (content.is_unread or _is_obscure(kind, rest))
+            and not content.asked
+        ),
         distress=DISTRESS in present,
         urgency=URGENCY in present,
         emergency_descent=EMERGENCY_DESCENT in text,

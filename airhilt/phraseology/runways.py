@@ -225,6 +225,7 @@ FORMS: Listed = (
     ("hold holding", "hold_position", r"(?<!will )hold(?:ing)? (?:your |my |present |in )?position",
      alone),
     ("cross crossing", "cross", r"cross(?:ing)?(?= runway| [0-9])", on_runway),
+    ("abort", "cancel_takeoff", r"abort(?: abort)+(?! takeoff)", alone),
     ("cancel cancelling abort aborting reject rejecting abandon abandoning", "cancel_takeoff",
      r"(?:cancel|abort|reject|abandon)(?:ling|ing)? (?:(?:your|the|my|that) )?takeoff"
      r"(?: clearance)?", alone),

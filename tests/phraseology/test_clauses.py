@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Sequence
 from itertools import permutations
 
@@ -41,6 +42,50 @@ def test_a_report_is_an_instruction_of_its_own_and_no_condition_of_another(
             ):
                 with subtests.test(text):
                     assert told(text) == (order, I("report", position=event))
+
+
+def test_a_condition_on_traffic_is_that_of_the_clearance_on_to_a_runway(
+    subtests: pytest.Subtests,
+) -> None:
+    entering = [
+        ("cross runway 04", I("cross", "04")),
+        ("line up runway 01", I("line_up", "01")),
+    ]
+    others = [
+        ("hold short of runway 15", I("hold_short", "15")),
+        ("taxi via kilo", I("taxi", via=("K",))),
+        ("contact tower 119.1", I("contact", position="tower", frequency_khz=119_100)),
+    ]
+    for words, order in entering:
+        for more, other in others:
+            for condition in ("after the cessna", "behind the landing airbus"):
+                for text in (f"{words} {condition}, {more}", f"{words} {condition}, then {more}"):
+                    with subtests.test(text):
+                        first, second = told(text)
+                        assert first == dataclasses.replace(order, condition=condition)
+                        assert second.action == other.action
+                        assert second.condition in (None, "then")
+
+
+@pytest.mark.parametrize("place", ["at 3000", "passing 3000", "at lam", "leaving flight level 90"])
+@pytest.mark.parametrize("words", ["turn left heading 270", "reduce speed 210", "descend 2000"])
+def test_the_place_behind_an_order_is_its_condition(words: str, place: str) -> None:
+    (order,) = told(f"{words} {place}")
+    assert order.condition == place
+
+
+def test_who_leaves_the_frequency_when_airborne_takes_off_first() -> None:
+    contact, takeoff = told("contact departure 125.65 when airborne, runway 01 cleared for takeoff")
+    assert (contact.condition, takeoff.condition) == ("when airborne", None)
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [("taxi to gate C28 via K", "gate C28"), ("taxi to stand b12", "stand B12"),
+     ("taxi to stand bravo one two", "stand B12"), ("taxi to runway 01 at delta", "D")],
+)  # fmt: skip
+def test_where_to_taxi_has_its_letter(text: str, place: str) -> None:
+    assert told(text)[0].position == place
 
 
 def test_a_condition_belongs_to_the_clause_that_it_begins_or_ends(
