@@ -139,6 +139,11 @@ class Costs(_Part):
     advice_spoken_s: float = Field(
         description="time for which advisories were spoken, on the frequency or aside from it"
     )
+    reversals: int = Field(
+        default=0,
+        description="times that an advisory told a crew to climb after a descent, or the other way "
+        "round",
+    )
 
 
 class PersonReaction(_Part):
