@@ -164,6 +164,7 @@ class Collector:
     def _take_advisory(self, advisory: Advisory) -> None:
         if self._advisories.add(advisory, self._deliveries.unfounded(advisory)):
             self._latencies.add("decision", advisory.t_ready_ns, advisory.t_ns)
+        self._costs.take_advisory(advisory)
         if advisory.active:
             self.last_advisory = advisory
         else:

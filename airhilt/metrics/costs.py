@@ -1,11 +1,11 @@
-"""Costs of a run to the people in it: approaches and take-offs broken off, and ways flown aside."""
+"""Costs of a run to the people in it: what is broken off, flown aside, and told anew."""
 
 from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
 
-from airhilt.messages import ActorTruth
+from airhilt.messages import ActorTruth, Advisory, Climb
 from airhilt.metrics.measures import HOUR_S
 from airhilt.metrics.plans import LateralOffset, Plans, place_of
 from airhilt.metrics.summary import Costs
@@ -42,7 +42,7 @@ class _Deviation:
 
 
 class CostRecords:
-    """Follows the true states of the actors for what a run costs them."""
+    """Follows the true states of the actors, and what they are told, for what a run costs them."""
 
     def __init__(self, plans: Plans) -> None:
         self._plans = plans
@@ -50,6 +50,9 @@ class CostRecords:
         self._deviations: dict[str, _Deviation] = {}
         self._begun: Counter[str] = Counter()
         """Number of times that aircraft came into each phase."""
+        self._senses: dict[tuple[str, str], str] = {}
+        """Sense that each recipient of each advisory was told last."""
+        self._reversals = 0
 
     def take_state(self, state: ActorTruth) -> None:
         """Receive the true state of an actor."""
@@ -76,6 +79,14 @@ class CostRecords:
             self._plans.path_until_ns(state.actor),
         )
 
+    def take_advisory(self, advisory: Advisory) -> None:
+        """Receive a revision of an advisory."""
+        told = advisory.recommendation
+        if isinstance(told, Climb):
+            key = advisory.id, advisory.recipient
+            self._reversals += self._senses.get(key, told.sense) != told.sense
+            self._senses[key] = told.sense
+
     def summary(self, advisories: int, advice_spoken_s: float, duration_s: float) -> Costs:
         """Return the costs, with the number of advisories and the time for which they spoke."""
         deviations = self._deviations.values()
@@ -86,4 +97,5 @@ class CostRecords:
             path_deviation_nm_s=sum(one.path_m_s for one in deviations) / NAUTICAL_MILE,
             advisories_per_hour=advisories / (duration_s / HOUR_S) if duration_s else None,
             advice_spoken_s=advice_spoken_s,
+            reversals=self._reversals,
         )

@@ -139,6 +139,11 @@ class Costs(_Part):
     advice_spoken_s: float = Field(
         description="time for which advisories were spoken, on the frequency or aside from it"
     )
+    reversals: int = Field(
+        default=0,
+        description="times that an advisory told a crew to climb after a descent, or the other way "
+        "round",
+    )
 
 
 class PersonReaction(_Part):
@@ -514,8 +519,8 @@ class Summary(_Part):
     )
     nmac: bool = Field(
         description="near mid-air collision: two aircraft in flight came closer than 500 ft "
-        "horizontally and 100 ft vertically, or with less than 100 ft between their outlines; "
-        "never counted if either is on the ground"
+        "horizontally and 100 ft vertically, or there was less than 100 ft between the outlines of "
+        "an aircraft in flight and anything else, also on the ground"
     )
     collision: bool = Field(
         description="the outlines of two actors touched, other than two whose collision begins "

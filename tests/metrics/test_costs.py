@@ -13,6 +13,7 @@ from airhilt.messages import (
     ActorTruth,
     Advisory,
     AdvisoryAudio,
+    Climb,
     Evidence,
     Severity,
     SpokenTruth,
@@ -43,6 +44,14 @@ def line(at_s: float, command: Command) -> EffectiveLine:
         text="one", commands=(scripted,),
     )  # fmt: skip
     return EffectiveLine(said, said, 0.0, (), frozenset())
+
+
+def advisory(name: str, revision: int, recipient: str, told: Any = None) -> Advisory:
+    return Advisory(
+        t_ns=SECOND_NS, id=name, revision=revision, recipient=recipient, recipients=(recipient,),
+        kind="loss_of_separation", severity=Severity.CAUTION, traffic=(FIRST, SECOND),
+        message="", evidence=Evidence(sources=("adsb",)), t_ready_ns=0, recommendation=told,
+    )  # fmt: skip
 
 
 class Flown:
@@ -98,6 +107,18 @@ def test_go_arounds_and_rejected_takeoffs_count_once_an_aircraft_and_occurrence(
     flown.fly("takeoff_roll", "rejected_takeoff", "rejected_takeoff", "standing", actor=SECOND)
     costs = flown.summary().costs
     assert (costs.go_arounds, costs.rejected_takeoffs) == (2, 1)
+
+
+def test_a_reversal_is_a_climb_after_a_descent_told_to_one_crew_by_one_advisory() -> None:
+    flown = Flown()
+    told = [
+        ("a", FIRST, "climb"), ("a", SECOND, "descend"), ("a", FIRST, "climb"),
+        ("a", FIRST, "descend"), ("a", FIRST, None), ("a", FIRST, "climb"), ("b", FIRST, "descend"),
+    ]  # fmt: skip
+    for revision, (name, crew, sense) in enumerate(told):
+        climb = sense and Climb(sense=sense, altitude_ft=31_000.0, vertical_rate_fpm=1_500.0)
+        flown.take(advisory(name, revision, crew, climb))
+    assert flown.summary().costs.reversals == 2
 
 
 def test_who_flies_as_the_script_plans_deviates_in_nothing() -> None:
@@ -200,11 +221,5 @@ def test_advisories_an_hour_are_counted_over_the_simulated_time() -> None:
     """Two in 300 s are 24 in an hour; a revision is no other advisory."""
     flown = Flown()
     for name, revision in (("a", 0), ("a", 1), ("b", 0)):
-        flown.take(
-            Advisory(
-                t_ns=SECOND_NS, id=name, revision=revision, recipient="ATC", recipients=("ATC",),
-                kind="loss_of_separation", severity=Severity.CAUTION, traffic=(FIRST, SECOND),
-                message="", evidence=Evidence(sources=("adsb",)), t_ready_ns=0,
-            )
-        )  # fmt: skip
+        flown.take(advisory(name, revision, "ATC"))
     assert flown.summary().costs.advisories_per_hour == pytest.approx(24.0)

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any, cast, get_args
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from airhilt import load
 from airhilt.messages import Advisory, Confirm, Evidence, GoAround, Severity
 from airhilt.metrics.advisories import AdvisoryRecords
-from airhilt.metrics.outcome import Outcome
-from airhilt.metrics.summary import RunwayIncursion
+from airhilt.metrics.outcome import INFRINGEMENTS, SERIOUS, SEVEREST_FIRST, Outcome
+from airhilt.metrics.summary import ConflictOutcome, RunwayIncursion
 from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import Approach, PairTruth
+from breadth import examples
 
 PAIR = ("AAL1", "DAL2")
 
@@ -106,6 +109,52 @@ def test_what_came_about_is_that_or_worse() -> None:
     assert lost.came_about("nmac")
     assert not lost.came_about("collision")
     assert lost.avoided(was_warned=True) is False
+
+
+HARM = st.frozensets(st.sampled_from([*sorted(INFRINGEMENTS), "tcas_ta", "tcas_ra"]))
+CATEGORIES = st.lists(
+    st.tuples(
+        st.sampled_from(SEVEREST_FIRST),
+        st.sampled_from([PAIR, PAIR[::-1], ("AAL1", "OPS1"), (None, "DAL2")]),
+    ),
+    max_size=3,
+)
+
+
+@examples(6000)
+@given(HARM, HARM, CATEGORIES, st.booleans(), st.booleans(), st.booleans(), st.booleans())
+def test_every_timeline_has_one_outcome_by_its_harm_warning_and_window(
+    phases: frozenset[str],
+    elsewhere: frozenset[str],
+    categories: list[tuple[str, Any]],
+    has_pair: bool,
+    was_warned: bool,
+    is_credited: bool,
+    has_opened: bool,
+) -> None:
+    """Who is credited was warned; what becomes of others changes nothing."""
+    is_credited &= was_warned
+    pairs = {
+        names: PairTruth(first_ns=dict.fromkeys(cast(Any, found), 1))
+        for names, found in ((PAIR, phases), (("AAL1", "OPS1"), elsewhere))
+    }
+    incursions = [incursion(category, *names) for category, names in categories]
+    found = outcome(pairs if has_pair else {}, PAIR, incursions)
+    harmed = (has_pair and not INFRINGEMENTS.isdisjoint(phases)) or any(
+        category in SERIOUS and set(names) <= {*PAIR} for category, names in categories
+    )
+    became = found.conflict(was_warned, has_opened, is_credited)
+    holds = {
+        "lost": harmed and was_warned,
+        "missed": not was_warned and (harmed or has_opened),
+        "avoided": not harmed and is_credited,
+        "avoided_by_equipment": not harmed and was_warned and not is_credited,
+        "no_conflict": not harmed and not was_warned and not has_opened,
+    }
+    assert [name for name, is_so in holds.items() if is_so] == [became]
+    assert holds.keys() == set(get_args(ConflictOutcome))
+    assert (found.avoided(is_credited) is True) is (became == "avoided")
+    assert (found.avoided(is_credited) is False) is harmed
 
 
 @pytest.mark.parametrize("was_warned", [False, True])

@@ -7,10 +7,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
+from airhilt.cli.commands.evaluate import COMMAND
 from airhilt.errors import AirhiltError
 from airhilt.host import library
 from airhilt.record.sweep_folder import SweepFolder
@@ -422,6 +425,7 @@ def test_cells_have_their_numbers_and_a_text() -> None:
     from airhilt.metrics.estimates import UNKNOWN, Estimate
 
     assert share(Estimate(0.75, 0.3, 0.95, 4)).text == "3 of 4 (30 to 95 %)"
+    assert share(Estimate(0.0, 0.0, 0.0042, 908)).text == "0 of 908 (0 to 0.4 %)"
     assert number(Estimate(7.66, 7.0, 8.0, 5), 2).text == "7.66 (7.00 to 8.00)"
     assert number(Estimate(7.66, None, None, 1), 0).text == "8"
     assert number(Estimate(-0.2, -1.3, 0.1, 3), 0).text == "0 (-1 to 0)"
@@ -468,6 +472,12 @@ def small(encounter: Scenario, tmp_path: Path) -> Preset:
         },
         tables=tables,
     )
+
+
+def test_the_help_names_every_preset(small: Preset, monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = SimpleNamespace(names=lambda: [small.name], load=lambda _: small)
+    monkeypatch.setattr("airhilt.sweep.evaluation.presets.FAMILY", shown)
+    assert "small: two short runs." in CliRunner().invoke(COMMAND, ["--help"]).output
 
 
 def test_an_evaluation_leaves_sweeps_and_tables_and_goes_on_where_it_was(

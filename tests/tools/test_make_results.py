@@ -6,6 +6,7 @@ import json
 import subprocess
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -226,3 +227,14 @@ def test_encounters_go_on_where_they_were_stopped_unless_the_code_has_changed(
     assert numbers == [0, 1, 2, 3]
     ClosedLoop().make(Wanted(tmp_path, OTHER, encounters=2))
     assert numbers == [0, 1, 2, 3, 0, 1]
+
+
+def test_twice_the_workers_take_half_the_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock_s = iter((0.0, 3.0, 10.0, 13.0))
+    monkeypatch.setattr(sections, "closed_loop_counts", lambda *_: flown(0))
+    monkeypatch.setattr(sections, "time", SimpleNamespace(monotonic=lambda: next(clock_s)))
+    for workers, left_s in ((1, 12.0), (2, 6.0)):
+        size = ClosedLoop().size(Wanted(tmp_path, COMMIT, encounters=4, workers=workers))
+        assert (size.left, size.left_s) == (4, left_s)

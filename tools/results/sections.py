@@ -7,6 +7,7 @@ A section is one entry of `SECTIONS` and one text of its name, such as ``paper.m
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 import time
@@ -22,7 +23,8 @@ from rich.progress import track
 from airhilt.cli.output import tell
 from airhilt.cli.sweep_output import sweep_progress
 from airhilt.errors import AirhiltError
-from airhilt.host.files import make_folder
+from airhilt.host.files import make_folder, replace_file
+from airhilt.host.machine import available_cores
 from airhilt.metrics.estimates import Estimate, share_of
 from airhilt.sweep.evaluation.engine import estimates, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset
@@ -145,20 +147,23 @@ class ClosedLoop:
 
     def size(self, wanted: Wanted) -> Size:
         """Return the number of encounters; one is flown."""
-        left = wanted.encounters - len(self._flown(wanted))
+        left = max(wanted.encounters - len(self._flown(wanted)), 0)
         begun = time.monotonic()
         if left > 0:
             closed_loop_counts(0, ENCOUNTERS_SEED, ASSISTANT)
-        return Size(wanted.encounters, max(left, 0), max(left, 0) * (time.monotonic() - begun))
+        one_s = time.monotonic() - begun
+        at_once = wanted.workers or available_cores()
+        return Size(wanted.encounters, left, math.ceil(left / at_once) * one_s)
 
     def make(self, wanted: Wanted) -> bool | None:
         """Fly the encounters that are not flown yet; each is on the disk before the next."""
         flown = self._flown(wanted)
         left = range(len(flown), wanted.encounters)
-        make_folder(self._path(wanted).parent)
-        with self._path(wanted).open("w", encoding="utf-8") as stream:
-            for line in (self._heading(wanted), *flown):
-                stream.write(f"{json.dumps(line)}\n")
+        path = self._path(wanted)
+        make_folder(path.parent)
+        kept = "".join(f"{json.dumps(line)}\n" for line in (self._heading(wanted), *flown))
+        replace_file(path, kept.encode())
+        with path.open("a", encoding="utf-8") as stream:
             made = closed_loop_flights(left, ENCOUNTERS_SEED, ASSISTANT, wanted.workers)
             console = Console(stderr=True)
             for counts in track(made, "encounters", len(left), console=console):

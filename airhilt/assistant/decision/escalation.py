@@ -59,9 +59,9 @@ class Escalation:
         self._told_ns = t_ns
         return True
 
-    def is_fresh(self, t_ns: int) -> bool:
+    def is_fresh(self, t_ns: int, response_s: float = RESPONSE_S) -> bool:
         """Return whether its last alert leaves time to respond to it yet."""
-        return self._told_ns is not None and t_ns - self._told_ns < RESPONSE_S * SECOND_NS
+        return self._told_ns is not None and t_ns - self._told_ns < response_s * SECOND_NS
 
     def changes(
         self, t_ns: int, *, other: Collection[str], ignoring: Collection[str]

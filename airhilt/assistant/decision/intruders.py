@@ -201,14 +201,19 @@ class IntruderWatch:
             has_risen = ongoing.escalation.rises(
                 encounter.severity, t_ns, self.config.persistence_s
             )
-            # What is seen to come on as before was not avoided.
+            own, other = (encounter.carrier,), False
             is_warning = encounter.severity is Severity.WARNING
+            if is_warning and ongoing.escalation.severity is Severity.WARNING:
+                before, ongoing.recommendation = (
+                    ongoing.recommendation,
+                    self._recommended(t_ns, ongoing),
+                )
+                other = ongoing.recommendation != before
+            # What is seen to come on as before was not avoided.
             news = ongoing.escalation.changes(
-                t_ns, other=(), ignoring=(encounter.carrier,) if is_warning else ()
+                t_ns, other=own if other else (), ignoring=own if is_warning else ()
             )
             if has_risen or news:
-                if ongoing.escalation.severity is Severity.WARNING:
-                    ongoing.recommendation = self._recommended(encounter)
                 told.append(self._alert(t_ns, ongoing))
         for ongoing in [each for each in self._ongoing if each not in threatened]:
             told += self._calm(t_ns, ongoing)
@@ -267,12 +272,17 @@ class IntruderWatch:
         self._ongoing.remove(ongoing)
         return [self._alert(t_ns, ongoing, active=False)] if has_alert else []
 
-    def _recommended(self, encounter: _Encounter) -> Recommendation:
+    def _recommended(self, t_ns: int, ongoing: _Ongoing) -> Recommendation:
+        """Return what the crew is to do; what it was told stays while it has time to respond."""
+        encounter, told = ongoing.encounter, ongoing.recommendation
+        if told is not None and ongoing.escalation.is_fresh(t_ns):
+            return told
         track, runway = encounter.track, self._runway_of(encounter.carrier)
-        if runway is not None:
+        if runway is not None and not isinstance(told, Climb | Turn):
             return GoAround(runway=runway)
         report = self._visual_tracks.traffic.carrier(track.last.geometry.view)
-        return evasion(track, encounter.approach, report, self._minima_from(track).vertical_m)
+        vertical_m = self._minima_from(track).vertical_m
+        return evasion(track, encounter.approach, report, vertical_m, told)
 
     def _minima_from(self, track: VisualTrack) -> Minima:
         return BIRDS if track.label == "bird" else self._minima()
@@ -334,7 +344,11 @@ def _note(encounter: _Encounter) -> str:
 
 
 def evasion(
-    track: VisualTrack, approach: Approach, report: AdsbReport | None, vertical_m: float
+    track: VisualTrack,
+    approach: Approach,
+    report: AdsbReport | None,
+    vertical_m: float,
+    told: Recommendation | None = None,
 ) -> Climb | Turn:
     """Return how to stay clear of something: climb or descend away from it, or turn right.
 
@@ -343,16 +357,32 @@ def evasion(
     from where no light aircraft is seen. Aircraft that meet head-on, and one that overtakes, turn
     right (14 CFR 91.113).
 
+    What the crew was told before stays. It is told another level once it has reached that one, and
+    to climb after a descent, or the other way round, only if the other one is seen to pass on the
+    side that it moves to.
+
     Parameters
     ----------
     report
         Last report of the aircraft that the camera is on; None if there is none.
     vertical_m
         Vertical distance to keep, in m.
+    told
+        What the crew was told last; None if it was told nothing.
     """
+    if isinstance(told, Turn):
+        return told
     if report is None or report.altitude_ft is None:
-        return Turn(degrees=TURN_DEG)
-    sense = _sense(track, approach, report.vertical_rate_fpm * FOOT_PER_MINUTE)
+        return told if isinstance(told, Climb) else Turn(degrees=TURN_DEG)
+    sense = (
+        _measured_sense(approach)
+        or _sense_of(told)
+        or _sense(track, report.vertical_rate_fpm * FOOT_PER_MINUTE)
+    )
+    if isinstance(told, Climb) and sense == _sense_of(told):
+        to_go_ft = sense * (told.altitude_ft - report.altitude_ft)
+        if to_go_ft > LEVEL_STEP_FT:
+            return told
     climb_ft = vertical_m / FOOT + BUFFER_FT
     if sense < 0 and track.last.geometry.view.height_m - climb_ft * FOOT < LEAST_HEIGHT_M:
         return Turn(degrees=TURN_DEG)
@@ -365,11 +395,24 @@ def evasion(
     )
 
 
-def _sense(track: VisualTrack, approach: Approach, vertical_rate_m_s: float) -> int:
+def _sense_of(told: Recommendation | None) -> int:
+    """Return 1 for a climb, -1 for a descent, 0 for neither."""
+    if isinstance(told, Climb):
+        return 1 if told.sense == "climb" else -1
+    return 1 if isinstance(told, GoAround) else 0
+
+
+def _measured_sense(approach: Approach) -> int:
+    """Return the sense away from where something is seen to pass; 0 if that cannot be told."""
     above = approach.passes_above()
     turns = abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
-    if abs(above) > ABOVE_SIZES and turns:
-        return -1 if above > 0.0 else 1
+    if abs(above) <= ABOVE_SIZES or not turns:
+        return 0
+    return -1 if above > 0.0 else 1
+
+
+def _sense(track: VisualTrack, vertical_rate_m_s: float) -> int:
+    """Return the sense away from where something is now."""
     if track.label == "bird":
         return 1  # Birds that take fright dive.
     elevation_rad = track.last.ray.elevation_rad

@@ -26,19 +26,30 @@ class Hazard:
     recommendations: Mapping[str, Recommendation] = field(default_factory=dict)
 
 
+@dataclass(slots=True)
+class _Ongoing:
+    """One hazard from first suspicion to its end."""
+
+    escalation: Escalation
+    hazard: Hazard
+    """The hazard as it was last."""
+    told: Mapping[str, Recommendation] = field(default_factory=dict)
+    """Recommendation that each was told last."""
+
+
 class RaisedAlerts:
     """Turns hazards into alerts: told once they have lasted, again when they rise, and at the end.
 
-    A severity must hold for ``persistence_s`` before it is told, and a hazard be gone for
-    ``release_s``. The ids of the alerts begin with the name.
+    A hazard has a recommendation for those alone who do not do so already: they are told when it
+    changes, and a WARNING again. A severity must hold for ``persistence_s`` before it is told, and
+    a hazard be gone for ``release_s``. The ids of the alerts begin with the name.
     """
 
     def __init__(self, name: str, persistence_s: float, release_s: float) -> None:
         self._name = name
         self._persistence_s = persistence_s
         self._release_s = release_s
-        self._ongoing: dict[tuple[str, ...], tuple[Escalation, Hazard]] = {}
-        """Each hazard from first suspicion to its end, as it was last."""
+        self._ongoing: dict[tuple[str, ...], _Ongoing] = {}
         self._count = 0
 
     @property
@@ -57,23 +68,31 @@ class RaisedAlerts:
         for key, hazard in present.items():
             if key not in self._ongoing:
                 self._count += 1
-                self._ongoing[key] = Escalation(f"{self._name}-{self._count}"), hazard
-            escalation, _ = self._ongoing[key]
-            self._ongoing[key] = escalation, hazard
-            if escalation.rises(hazard.severity, t_ns, self._persistence_s):
-                alerts.append(_alert(escalation, hazard, active=True))
+                self._ongoing[key] = _Ongoing(Escalation(f"{self._name}-{self._count}"), hazard)
+            ongoing, advice = self._ongoing[key], hazard.recommendations
+            ongoing.hazard = hazard
+            has_risen = ongoing.escalation.rises(hazard.severity, t_ns, self._persistence_s)
+            news = ongoing.escalation.changes(
+                t_ns,
+                other=[name for name in advice if advice[name] != ongoing.told.get(name)],
+                ignoring=tuple(advice),
+            )
+            if has_risen or news:
+                ongoing.told = {**ongoing.told, **advice}
+                alerts.append(_alert(ongoing, active=True))
         for key in [key for key in self._ongoing if key not in present]:
-            escalation, hazard = self._ongoing[key]
-            if escalation.severity is None:
+            ongoing = self._ongoing[key]
+            if ongoing.escalation.severity is None:
                 del self._ongoing[key]
-            elif escalation.is_over(t_ns, self._release_s):
+            elif ongoing.escalation.is_over(t_ns, self._release_s):
                 del self._ongoing[key]
-                alerts.append(_alert(escalation, hazard, active=False))
+                alerts.append(_alert(ongoing, active=False))
         return alerts
 
 
-def _alert(escalation: Escalation, hazard: Hazard, *, active: bool) -> Alert:
-    return escalation.alert(
+def _alert(ongoing: _Ongoing, *, active: bool) -> Alert:
+    hazard = ongoing.hazard
+    return ongoing.escalation.alert(
         hazard.kind,
         hazard.recipients,
         hazard.traffic,

@@ -27,6 +27,17 @@ def _flags() -> list[click.Parameter]:
     return run_flags(CHOSEN, {"latency": "the preset's", "crews": "the preset's, or icao"})
 
 
+class _PresetOption(click.Option):
+    """An option whose help is made of the presets that there are."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        from airhilt.sweep.evaluation.presets import FAMILY
+
+        presets: list[Preset] = [FAMILY.load(name) for name in FAMILY.names()]
+        self.help = "; ".join(f"{each.name}: {each.summary}" for each in presets) + "."
+        return super().get_help_record(ctx)
+
+
 @click.command(
     cls=CommandWithFlags,
     flags=_flags,
@@ -39,10 +50,9 @@ Examples:
 )
 @click.option(
     "--preset",
+    cls=_PresetOption,
     required=True,
     metavar="NAME",
-    help="paper: runway overlaps, with the numbers of the AIRHILT paper beside ours; full: all "
-    "families and assistants, modalities, topologies and response models; recipients: who is told.",
 )
 @click.option(
     "--seeds",

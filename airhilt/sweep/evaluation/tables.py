@@ -84,7 +84,9 @@ def number(found: Estimate, digits: int = 1) -> Quantity:
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:.0f}"
+    """Return a share in percent, with one digit where it is above 0 and below 1 %."""
+    digits = 1 if 0.0 < share < 0.01 else 0
+    return f"{100.0 * share:.{digits}f}"
 
 
 def _quantity(

@@ -98,8 +98,9 @@ class ConflictMonitor:
     """Watches separation, near mid-air collisions, collisions, and alerts of TCAS II.
 
     Bodies move straight on between two ticks, so that a fast pass is not missed. A collision
-    is a contact of two outlines. Separation minima apply to aircraft in flight, outside the zone of
-    an airport's tower.
+    is a contact of two outlines, and a near mid-air collision less than `NARROW_M` between the
+    outlines of an aircraft in flight and of anything else. Separation minima apply to aircraft in
+    flight, outside the zone of an airport's tower.
 
     Parameters
     ----------
@@ -301,10 +302,11 @@ class ConflictMonitor:
         """Record the phases of a pair at its closest approach, ``back_s`` (0 or less) from now."""
         _, horizontal, vertical = near
         first, second = (self._bodies[name] for name in pair)
-        both_fly = self._in_flight(pair[0]) and self._in_flight(pair[1])
+        flying = [self._in_flight(name) for name in pair]
+        both_fly = all(flying)
         too_near = horizontal < self._minima.horizontal_m
         too_level = vertical < self._minima.vertical_m
-        reach_m = radius_m(first) + radius_m(second) + (NARROW_M if both_fly else 0.0)
+        reach_m = radius_m(first) + radius_m(second) + (NARROW_M if any(flying) else 0.0)
         between = gap(first, second, back_s) if horizontal <= reach_m else None
         if both_fly:
             if too_level:
@@ -313,9 +315,10 @@ class ConflictMonitor:
                 truth.least_vertical_m = _lesser(truth.least_vertical_m, vertical)
             if too_near and too_level and not (self._in_zone(first) and self._in_zone(second)):
                 self._record("loss_of_separation", now_ns, pair, horizontal, vertical)
-            is_narrow = between is not None and between.slant_m < NARROW_M
-            if is_narrow or (horizontal < NMAC.horizontal_m and vertical < NMAC.vertical_m):
-                self._record("nmac", now_ns, pair, horizontal, vertical)
+        is_narrow = any(flying) and between is not None and between.slant_m < NARROW_M
+        is_near = both_fly and horizontal < NMAC.horizontal_m and vertical < NMAC.vertical_m
+        if is_narrow or is_near:
+            self._record("nmac", now_ns, pair, horizontal, vertical)
         if between is not None and between.touches:
             self._record("collision", now_ns, pair, *between)
 

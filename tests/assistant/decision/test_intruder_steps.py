@@ -18,7 +18,7 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch, evasion
 from airhilt.assistant.decision.line_of_sight import Ray
 from airhilt.geodesy.relative_motion import Minima
-from airhilt.messages import Climb, Severity, Turn
+from airhilt.messages import Climb, GoAround, Recommendation, Severity, Turn
 from airhilt.units import DEGREE, FOOT, SECOND_NS
 
 
@@ -99,6 +99,7 @@ def test_the_nearer_it_passes_the_graver_it_is(sizes: float, severity: Severity 
 def way_out(
     seen: Approach | None = None, *, elevation_deg: float = 0.0, label: str = "airplane",
     rate_fpm: float = 0.0, height_m: float = 3000.0, altitude_ft: float | None = 10_000.0,
+    told: Recommendation | None = None,
 ) -> Climb | Turn:  # fmt: skip
     ray = Ray(0.0, math.cos(elevation_deg * DEGREE), math.sin(elevation_deg * DEGREE))
     view = SimpleNamespace(height_m=height_m)
@@ -106,7 +107,7 @@ def way_out(
         label=label, last=SimpleNamespace(ray=ray, geometry=SimpleNamespace(view=view))
     )
     report = SimpleNamespace(altitude_ft=altitude_ft, vertical_rate_fpm=rate_fpm)
-    return evasion(cast(Any, track), seen or approach(), cast(Any, report), 450.0 * FOOT)
+    return evasion(cast(Any, track), seen or approach(), cast(Any, report), 450.0 * FOOT, told)
 
 
 def sense(told: Climb | Turn) -> str:
@@ -139,6 +140,42 @@ def test_what_will_pass_above_is_dived_under(up: float, expected: str) -> None:
     assert sense(way_out(seen)) == expected
     if expected == "climb":
         assert sense(way_out(seen, rate_fpm=-1.0)) == ("climb" if up < 0.0 else "descend")
+
+
+DESCEND = Climb(sense="descend", altitude_ft=9_300.0, vertical_rate_fpm=2500.0)
+
+
+@pytest.mark.parametrize(
+    ("how", "expected"),
+    [
+        ({}, DESCEND),
+        ({"elevation_deg": -5.0}, DESCEND),  # It dives under the other one, which is below yet.
+        ({"altitude_ft": None}, DESCEND),
+        ({"altitude_ft": 9_401.0}, DESCEND),
+        ({"altitude_ft": 9_399.0}, DESCEND.model_copy(update={"altitude_ft": 8_700.0})),
+        ({"told": Turn(degrees=30)}, Turn(degrees=30)),
+    ],
+)
+def test_what_was_told_stays_until_the_level_is_reached(
+    how: dict[str, Any], expected: Recommendation
+) -> None:
+    assert way_out(**{"told": DESCEND, **how}) == expected
+
+
+@pytest.mark.parametrize(
+    ("down", "expected"), [(1.1, "climb"), (0.9, "descend"), (-2.0, "descend")]
+)
+def test_a_descent_is_reversed_only_for_what_is_seen_to_pass_below(
+    down: float, expected: str
+) -> None:
+    seen = approach(turning_rad_s=(0.0, -down * 0.01 / 20.0), turning_error=0.0)
+    assert sense(way_out(seen, told=DESCEND)) == expected
+    doubtful = seen._replace(turning_error=1.0)
+    assert sense(way_out(doubtful, told=DESCEND)) == "descend"
+
+
+def test_who_was_told_to_go_around_is_not_told_to_descend_for_what_is_above_now() -> None:
+    assert sense(way_out(elevation_deg=5.0, told=GoAround(runway="01"))) == "climb"
 
 
 def test_to_the_right_goes_who_cannot_climb_or_descend() -> None:

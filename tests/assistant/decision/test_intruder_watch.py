@@ -12,9 +12,10 @@ import pytest
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.approach import Approach
-from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.escalation import AGAIN_S, Escalation
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch, _Encounter, _Ongoing
 from airhilt.assistant.decision.line_of_sight import Ray
+from airhilt.assistant.decision.manoeuvres import RESPONSE_S
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import Minima
@@ -170,6 +171,23 @@ def test_a_crew_is_told_what_to_do_with_the_warning_and_not_before() -> None:
     assert isinstance(warning.recommendations["AAL123"], Climb)
     assert (caution.revision, warning.revision) == (0, 1)
     assert caution.id == warning.id == "intruder-1"
+
+
+def test_a_sense_is_reversed_once_there_was_time_to_respond_for_what_comes_after_the_crew() -> None:
+    def climbs(t_s: float) -> tuple[Place, float]:
+        above_m = 4.0 * max(t_s - 2.5, 0.0)
+        return (0.0, CLOSING_M_S * (22.0 - t_s), HEIGHT_M + above_m), 0.0
+
+    seen = Watch(nose(replace(ahead(22.0), at=climbs)), reports=[report("AAL123")]).sees(0.0, 1.5)
+    told = [
+        (t_s, alert.recommendations["AAL123"].sense)
+        for t_s in (step / 2 for step in range(4, 30))
+        for alert in seen.sees(t_s - 0.375, t_s).told(t_s)
+        if alert.recommendations
+    ]
+    (first_s, first), (again_s, again), *more = told
+    assert (first, again, more) == ("climb", "descend", [])
+    assert RESPONSE_S <= again_s - first_s < AGAIN_S
 
 
 def test_who_is_on_final_is_told_to_go_around() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
 
 from airhilt.assistant.decision.engines.well_clear import RESPONSE_S, _stays_clear, smallest_turn
@@ -73,6 +75,19 @@ def test_an_alert_stays_open_until_the_two_are_past_each_other() -> None:
     assert all(advisory.active for t, advisory in told if t < MEETS_S)
 
 
+def test_who_flies_on_is_told_again_after_the_time_to_respond_and_to_the_same_side() -> None:
+    told = flown(head_on(200.0)).told
+    for severity in ("CAUTION", "WARNING"):
+        turns = {
+            t: each.recommendation
+            for t, each in told
+            if each.recipient == "AAL123" and each.severity == severity
+        }
+        assert all(isinstance(turn, Turn) and turn.degrees > 0.0 for turn in turns.values())
+        between_s = {later - t for t, later in itertools.pairwise(turns)}
+        assert between_s == {RESPONSE_S}
+
+
 @pytest.mark.parametrize(("after_s", "is_clear"), [(179.5, False), (180.5, True)])
 def test_a_turn_is_to_stay_well_clear_for_three_minutes(after_s: float, is_clear: bool) -> None:
     """Two meet head-on at 400 m/s; the violation begins some time after the response."""
@@ -99,3 +114,7 @@ def test_the_smallest_turn_is_away_from_the_other_and_to_the_right_where_either_
     told = smallest_turn(apart, (200.0, 0.0), Gap(0.0, 0.0))
     assert told is not None
     assert told.degrees == degrees
+    for side in (-10.0, 10.0):
+        again = smallest_turn(apart, (200.0, 0.0), Gap(0.0, 0.0), Turn(degrees=side))
+        assert again is not None
+        assert again.degrees * side > 0.0

@@ -63,11 +63,23 @@ def test_a_pair_that_no_scenario_names_is_watched_at_every_tick_when_it_is_near(
     assert watch.truth.closest.horizontal_m < 15.0
 
 
-@pytest.mark.parametrize("grounded", [(True, True), (True, False)])
-def test_near_mid_air_collisions_are_of_two_aircraft_in_flight(grounded: tuple[bool, bool]) -> None:
-    first, second = head_on(10.0)
+@pytest.mark.parametrize(
+    ("grounded", "aside_m", "is_near"),
+    [
+        ((True, True), 60.0, False),
+        ((True, False), 60.0, True),
+        ((False, True), 60.0, True),
+        ((True, False), 70.0, False),
+        ((False, False), 70.0, True),
+    ],
+)
+def test_who_flies_within_100_ft_of_one_on_the_ground_nearly_collides(
+    grounded: tuple[bool, bool], aside_m: float, is_near: bool
+) -> None:
+    """The outlines of two that pass 60 m apart are 26 m apart; in flight, 500 ft are too near."""
+    first, second = head_on(10.0, north_m=aside_m)
     first.on_ground, second.on_ground = grounded
-    assert "nmac" not in Watch(first, second).fly(20.0).told
+    assert ("nmac" in Watch(first, second).fly(20.0).told) is is_near
 
 
 def test_tcas_speaks_at_its_thresholds() -> None:

@@ -155,12 +155,16 @@ class Pass:
 
 @st.composite
 def using(draw: Any, *runways: str) -> Passing:
-    """An airliner that takes off, lands, or goes around, a few seconds from the crossing."""
+    """An airliner that takes off, lands, or goes around, a few seconds from the crossing.
+
+    In flight it may turn off the runway.
+    """
     runway = draw(st.sampled_from(runways))
     phase = draw(st.sampled_from(ON_THE_RUNWAY + IN_FLIGHT))
+    turned_deg = draw(st.floats(-40.0, 40.0)) if phase in IN_FLIGHT else 0.0
     return Passing(
         at_s=draw(st.floats(4.0, 7.0)),
-        course_deg=course_deg(runway),
+        course_deg=course_deg(runway) + turned_deg,
         speed_m_s=draw(st.floats(15.0, 90.0)),
         phase=phase,
         runway=None if phase in ("climb_out", "go_around") else runway,

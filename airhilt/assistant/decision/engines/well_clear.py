@@ -3,14 +3,14 @@
 DO-365B asks a system for bands of tracks that lead to a violation, and leaves the choice among the
 others to the pilot. The choice here is an assumption: the smallest turn that stays well clear for
 the look-ahead, to the right rather than to the left, as both turn that meet head-on (ICAO Annex 2,
-3.2.2.2). The other one is taken to fly straight on. The turn is begun after the response time, and
-its duration is part of that.
+3.2.2.2); after the response time it is chosen anew, to the same side. The other one is taken to fly
+straight on. The turn is begun after the response time, and its duration is part of that.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from airhilt.assistant.decision.aerodrome import TrafficZone
@@ -22,7 +22,7 @@ from airhilt.assistant.decision.findings import Announcement
 from airhilt.assistant.decision.tracks import Track
 from airhilt.engines import Engine
 from airhilt.geodesy.relative_motion import Relative, relative
-from airhilt.messages import AdsbReport, Briefing, Evidence, Message, Recommendation, Severity, Turn
+from airhilt.messages import AdsbReport, Briefing, Evidence, Message, Severity, Turn
 from airhilt.surveillance.well_clear import (
     CORRECTIVE,
     HYSTERESIS_S,
@@ -74,7 +74,7 @@ class _Encounter:
     """One pair from its first alert to its last."""
 
     escalation: Escalation
-    recommendations: dict[str, Recommendation] = field(default_factory=dict)
+    recommendations: dict[str, Turn] = field(default_factory=dict)
 
 
 class WellClearEngine:
@@ -136,9 +136,14 @@ class WellClearEngine:
             self._count += 1
             encounter = _Encounter(Escalation(f"well-clear-{self._count}"))
             self._encounters[pair] = encounter
-        if encounter.escalation.rises(SEVERITIES[level.name], t_ns, persistence_s=0.0):
-            if level is not PREVENTIVE:
-                encounter.recommendations = _turns(first, second, gap)
+        escalation, before = encounter.escalation, encounter.recommendations
+        has_risen = escalation.rises(SEVERITIES[level.name], t_ns, persistence_s=0.0)
+        turns: dict[str, Turn] = {}
+        if level is not PREVENTIVE and (has_risen or not escalation.is_fresh(t_ns, RESPONSE_S)):
+            turns = _turns(first, second, gap, before)
+            encounter.recommendations = turns if has_risen else {**before, **turns}
+        news = escalation.changes(t_ns, other=turns, ignoring=())
+        if has_risen or news:
             yield _alert(encounter, first, second, _evidence(pair, motion, gap, level))
 
     def _is_over(self, encounter: _Encounter, motion: Relative, t_ns: int) -> bool:
@@ -153,10 +158,13 @@ class WellClearEngine:
         return encounter.escalation.is_over(t_ns, HYSTERESIS_S)
 
 
-def smallest_turn(motion: Relative, own: Velocity, gap: Gap) -> Turn | None:
+def smallest_turn(
+    motion: Relative, own: Velocity, gap: Gap, told: Turn | None = None
+) -> Turn | None:
     """Return the smallest turn of the own aircraft that remains well clear; None if none does.
 
-    There is none either if the two are past each other before a turn is made.
+    There is none either if the two are past each other before a turn is made. Who was ``told`` to
+    turn to one side is told to turn to the other one only if no turn to that side will do.
 
     Parameters
     ----------
@@ -167,7 +175,8 @@ def smallest_turn(motion: Relative, own: Velocity, gap: Gap) -> Turn | None:
     """
     if motion.time_to_closest_approach_s() <= RESPONSE_S:
         return None
-    for degrees in TURNS_DEG:
+    held = 0.0 if told is None else told.degrees
+    for degrees in sorted(TURNS_DEG, key=lambda each: each * held < 0.0):
         if _stays_clear(motion, own, gap, degrees * DEGREE):
             return Turn(degrees=degrees)
     return None
@@ -189,11 +198,14 @@ def _stays_clear(motion: Relative, own: Velocity, gap: Gap, turn_rad: float) -> 
     return violation_s is None or violation_s > LOOK_AHEAD_S
 
 
-def _turns(first: Track, second: Track, gap: Gap) -> dict[str, Recommendation]:
+def _turns(first: Track, second: Track, gap: Gap, told: Mapping[str, Turn]) -> dict[str, Turn]:
     opposite = Gap(-gap.gap_m, -gap.rate_m_s)
     turns = {
         own.callsign: smallest_turn(
-            relative(own, other), (own.velocity_north_m_s, own.velocity_east_m_s), seen
+            relative(own, other),
+            (own.velocity_north_m_s, own.velocity_east_m_s),
+            seen,
+            told.get(own.callsign),
         )
         for own, other, seen in ((first, second, gap), (second, first, opposite))
     }
