@@ -132,7 +132,7 @@ def test_every_timeline_has_one_outcome_by_its_harm_warning_and_window(
     is_credited: bool,
     has_opened: bool,
 ) -> None:
-    """Who is credited was warned; what becomes of others changes nothing."""
+    """Who is credited was warned; harm to one of the pair counts, with whomever."""
     is_credited &= was_warned
     pairs = {
         names: PairTruth(first_ns=dict.fromkeys(cast(Any, found), 1))
@@ -140,8 +140,8 @@ def test_every_timeline_has_one_outcome_by_its_harm_warning_and_window(
     }
     incursions = [incursion(category, *names) for category, names in categories]
     found = outcome(pairs if has_pair else {}, PAIR, incursions)
-    harmed = (has_pair and not INFRINGEMENTS.isdisjoint(phases)) or any(
-        category in SERIOUS and set(names) <= {*PAIR} for category, names in categories
+    harmed = (has_pair and not INFRINGEMENTS.isdisjoint(phases | elsewhere)) or any(
+        category in SERIOUS and set(names) & {*PAIR} for category, names in categories
     )
     became = found.conflict(was_warned, has_opened, is_credited)
     holds = {
