@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from pyarrow import Table
 
     from airhilt import messages
-    from airhilt.cosim.observer import Observer, Result, Snapshot
+    from airhilt.cosim.observer import Observer, Snapshot
+    from airhilt.metrics.result import Result
     from airhilt.options import Options
-    from airhilt.record.run import Run as RecordedRun
     from airhilt.scenario import Scenario
     from airhilt.sim.worker import Input, Output
     from airhilt.workers import Step, Worker
@@ -54,7 +54,7 @@ _HOMES = {
     "Observer": "airhilt.cosim.observer",
     "Options": "airhilt.options",
     "Output": "airhilt.sim.worker",
-    "Result": "airhilt.cosim.observer",
+    "Result": "airhilt.metrics.result",
     "Scenario": "airhilt.scenario",
     "Snapshot": "airhilt.cosim.observer",
     "Step": "airhilt.workers",
@@ -88,8 +88,8 @@ def load(name_or_file: str | Path) -> Scenario:
     return load_scenario(name_or_file)
 
 
-def open_run(folder: str | Path) -> RecordedRun:
-    """Open a run folder: its messages, latencies and ``run.json``, and what is damaged in it.
+def open_run(folder: str | Path) -> Result:
+    """Open a run folder: its numbers, messages and frames, ``run.json``, and what is damaged.
 
     Python warns of each file that is not as the run wrote it; the rest can be read.
 
@@ -103,9 +103,9 @@ def open_run(folder: str | Path) -> RecordedRun:
     AirhiltError
         There is no run in it, or its ``run.json`` cannot be read.
     """
-    from airhilt.record.run import open_run as open_folder
+    from airhilt.metrics.result import open_result
 
-    return open_folder(folder)
+    return open_result(folder)
 
 
 @overload

@@ -1,20 +1,10 @@
-"""Reports of a run to the program that started it: while it goes on, and at its end."""
+"""Reports of a run to the program that started it, while it goes on."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from airhilt.messages import Advisory
-from airhilt.metrics.summary import Summary
-
-
-@dataclass(frozen=True)
-class Result:
-    """The outcome of a run: the numbers of its summary, and its folder."""
-
-    summary: Summary
-    folder: Path
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import Any
 import pyarrow as pa
 
 from airhilt.metrics.columns import Column, Kind, column_of, metric_columns
+from airhilt.metrics.frames import table_of
 from airhilt.sweep.cases import Case
 from airhilt.sweep.outcome import OF_THE_MACHINE, Machine, Outcome
 
@@ -141,22 +142,9 @@ def _kind(values: Iterable[Any]) -> Kind:
 
 
 def _table(columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pa.Table:
-    """Return rows as a table whose fields say their units and meanings."""
-    schema = pa.schema(
-        [
-            pa.field(
-                column.name,
-                pa.type_for_alias(column.type),
-                metadata={"unit": column.unit, "description": column.description},
-            )
-            for column in columns
-        ]
-    )
-    arrays = [
-        pa.array([_cell(row.get(column.name), column) for row in rows], field.type)
-        for column, field in zip(columns, schema, strict=True)
-    ]
-    return pa.table(arrays, schema=schema)
+    """Return rows as a table, in which texts stand for the values of other types."""
+    cells = ({each.name: _cell(row.get(each.name), each) for each in columns} for row in rows)
+    return table_of(columns, cells)
 
 
 def _cell(value: Any, column: Column) -> Any:
