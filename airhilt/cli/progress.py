@@ -14,8 +14,7 @@ from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import Advisory, Severity
 from airhilt.metrics.summary import Summary
-from airhilt.metrics.summary_rows import factor, latency, summary_rows
-from airhilt.units import FOOT, NAUTICAL_MILE
+from airhilt.metrics.summary_rows import latency, summary_rows
 
 PLAIN_PERIOD_S = 5.0
 """Time between two lines where standard error is no terminal, in s."""
@@ -72,18 +71,7 @@ class ProgressLine(Observer):
         snapshot = self._snapshot
         if snapshot is None:
             return Text(f"{self._title}: getting ready")
-        wall_s = max(time.monotonic() - self._begun, 1e-6)
-        parts = [
-            Text(f"{snapshot.t_s:6.1f} of at most {snapshot.duration_s:.0f} s"),
-            Text(f"{factor(snapshot.t_s / wall_s)} x real time"),
-        ]
-        if snapshot.horizontal_m is not None and snapshot.vertical_m is not None:
-            parts.append(
-                Text(
-                    f"{snapshot.horizontal_m / NAUTICAL_MILE:.1f} NM / "
-                    f"{snapshot.vertical_m / FOOT:.0f} ft apart"
-                )
-            )
+        parts = [Text(part) for part in snapshot.texts(time.monotonic() - self._begun)]
         if snapshot.advisory is not None:
             parts.append(_advisory_text(snapshot.advisory))
         line = Text("  |  ").join(parts)

@@ -74,15 +74,19 @@ def part_of(outcomes: Iterable[Outcome]) -> pa.Table:
 def tables_of(
     cases: Mapping[str, Case], finished: Mapping[str, Mapping[str, Any]]
 ) -> tuple[pa.Table, pa.Table]:
-    """Return the table of results and the table of the machine, both sorted by key.
+    """Return the table of results and the table of the machine.
+
+    Both are sorted by scenario, assistant, parameters and seed.
 
     Parameters
     ----------
     finished
         Rows of the parts by their keys; rows of other runs are left out.
     """
-    keys = sorted(key for key in cases if key in finished)
     names = _column_names(cases.values())
+    keys = sorted(
+        (key for key in cases if key in finished), key=lambda key: _place(cases[key], names, key)
+    )
     results = [
         {
             **finished[key],
@@ -109,6 +113,18 @@ def tables_of(
     ]
     columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
     return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
+
+
+def _place(case: Case, names: Iterable[str], key: str) -> tuple[Any, ...]:
+    """Return what a run is sorted by; a parameter may be null, a number, a text or a structure."""
+    values = [_rank(case.parameters.get(path)) for path in names]
+    return (case.scenario, case.assistant, values, case.seed, key)
+
+
+def _rank(value: Any) -> tuple[int, Any]:
+    if value is None:
+        return 0, 0
+    return (1, value) if isinstance(value, int | float) else (2, _text(value))
 
 
 def grid_sha256(cases: Mapping[str, Case]) -> str:
@@ -149,6 +165,8 @@ def _table(columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pa.T
 
 def _cell(value: Any, column: Column) -> Any:
     """Return a value as its column has it: in a column of texts, other values as JSON."""
-    if column.type == "string" and value is not None and not isinstance(value, str):
-        return json.dumps(value)
-    return value
+    return value if value is None or column.type != "string" else _text(value)
+
+
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else json.dumps(value)

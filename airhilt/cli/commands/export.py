@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.output import tell
-from airhilt.cli.parameters import FOLDER, run_argument
+from airhilt.cli.parameters import PATH, run_argument
 from airhilt.export import FORMATS
 from airhilt.export import export as export_run
 
@@ -26,7 +26,7 @@ Examples:
 )
 @click.option(
     "--out",
-    type=FOLDER,
+    type=PATH,
     metavar="FOLDER",
     help="A folder that is new or empty.  [default: export/FORMAT in the run folder]",
 )
