@@ -8,7 +8,7 @@ column. Every run has the same columns.
 from __future__ import annotations
 
 import types
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -166,17 +166,24 @@ def _kind(annotation: Any) -> Kind | None:
     return kinds.get(annotation) if is_type else None
 
 
+def _text(value: Any) -> str:
+    return BETWEEN_TEXTS.join(value) if isinstance(value, list) else str(value)
+
+
+CONVERT: Mapping[Kind, Callable[[Any], Value]] = {
+    "string": _text,
+    "bool": bool,
+    "int64": int,
+    "float64": float,
+}
+"""Makes the value of a column from what JSON has."""
+
+
 def _at(content: Mapping[str, Any], column: Column) -> Value:
     found: Any = content
     for key in column.path:
         found = None if found is None else found.get(key)
-    convert = {"string": _text, "bool": bool, "int64": int, "float64": float}
-    value: Value = None if found is None else convert[column.type](found)
-    return value
-
-
-def _text(value: Any) -> str:
-    return BETWEEN_TEXTS.join(value) if isinstance(value, list) else str(value)
+    return None if found is None else CONVERT[column.type](found)
 
 
 OF_RUNS = FlatRow(Summary, DERIVED, NOT_METRICS)
