@@ -22,16 +22,12 @@ class Run:
 
     def __init__(self, paths: RunFolder) -> None:
         self.paths = paths
+        self.info: RunInfo = paths.info()
 
     @property
     def folder(self) -> Path:
         """The run folder."""
         return self.paths.path
-
-    @cached_property
-    def info(self) -> RunInfo:
-        """Content of ``run.json``."""
-        return self.paths.info()
 
     @cached_property
     def log_damage(self) -> str:
