@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from pyarrow import Table
 
     from airhilt import messages
-    from airhilt.cosim.observer import Observer, Result, Snapshot
+    from airhilt.cosim.observer import Observer, Snapshot
+    from airhilt.metrics.result import Result
     from airhilt.options import Options
-    from airhilt.record.run import Run as RecordedRun
     from airhilt.scenario import Scenario
     from airhilt.sim.worker import Input, Output
     from airhilt.workers import Step, Worker
@@ -54,7 +54,7 @@ _HOMES = {
     "Observer": "airhilt.cosim.observer",
     "Options": "airhilt.options",
     "Output": "airhilt.sim.worker",
-    "Result": "airhilt.cosim.observer",
+    "Result": "airhilt.metrics.result",
     "Scenario": "airhilt.scenario",
     "Snapshot": "airhilt.cosim.observer",
     "Step": "airhilt.workers",
@@ -88,8 +88,8 @@ def load(name_or_file: str | Path) -> Scenario:
     return load_scenario(name_or_file)
 
 
-def open_run(folder: str | Path) -> RecordedRun:
-    """Open a run folder: its messages, latencies and ``run.json``, and what is damaged in it.
+def open_run(folder: str | Path) -> Result:
+    """Open a run folder: its numbers, messages and frames, ``run.json``, and what is damaged.
 
     Python warns of each file that is not as the run wrote it; the rest can be read.
 
@@ -103,9 +103,9 @@ def open_run(folder: str | Path) -> RecordedRun:
     AirhiltError
         There is no run in it, or its ``run.json`` cannot be read.
     """
-    from airhilt.record.run import open_run as open_folder
+    from airhilt.metrics.result import open_result
 
-    return open_folder(folder)
+    return open_result(folder)
 
 
 @overload
@@ -168,7 +168,7 @@ def run(
     out
         The run folder; None makes a new one under ``runs/``.
     observer
-        Is told how the run is doing.
+        Is told how the run is doing; None: a notebook shows it below the cell.
     workers
         Workers of this process. Each takes the place of the reference worker of its modality.
     options
@@ -182,11 +182,15 @@ def run(
         There is no option of that name; the message gives the nearest.
     """
     from airhilt.configuration import read_configuration
+    from airhilt.cosim.observer import NotebookProgress
     from airhilt.cosim.simulation import run as run_scenario
+    from airhilt.host.notebook import is_notebook
     from airhilt.options import options_of
 
     if isinstance(scenario, str | Path):
         scenario = load(scenario)
+    if observer is None and is_notebook():
+        observer = NotebookProgress(scenario.name)
     if isinstance(options.get("assistant_config"), str | Path):
         options["assistant_config"] = read_configuration(Path(options["assistant_config"]))
     given = options_of({"out": out, **options})
@@ -208,8 +212,9 @@ def run_sweep(
 ) -> DataFrame:
     """Run scenarios over seeds and parameters, and return a pandas data frame, a row a run.
 
-    It is `read_sweep` of ``out``. What that folder has already is not run again. A script that
-    calls this needs ``if __name__ == "__main__":``, because the workers are other processes.
+    It is `read_sweep` of ``out``. What that folder has already is not run again. A notebook shows
+    below the cell how many runs have ended. A script that calls this needs
+    ``if __name__ == "__main__":``, because the workers are other processes.
 
     Parameters
     ----------
@@ -241,6 +246,8 @@ def run_sweep(
     AirhiltError
         Something that was given is wrong; nothing was run.
     """
+    from airhilt.host.notebook import is_notebook
+    from airhilt.sweep.engine import NotebookSweepProgress, SweepObserver
     from airhilt.sweep.engine import sweep as sweep_all
     from airhilt.sweep.specification import first_seeds, specification_of
     from airhilt.sweep.work import Work, keep_of
@@ -262,5 +269,6 @@ def run_sweep(
         sample=sampled,
         retry=retry,
     )
-    sweep_all(specification_of(document, "run_sweep"), work)
+    observer = NotebookSweepProgress() if is_notebook() else SweepObserver()
+    sweep_all(specification_of(document, "run_sweep"), work, observer)
     return read_sweep(out)

@@ -79,7 +79,7 @@ def best_manoeuvres(run: Path, by: str, past: str, known_at_s: float) -> list[Be
     """Return the best manoeuvre of one aircraft for each delay after a time of a run."""
     recorded = open_run(run)
     flown: dict[str, list[ActorTruth]] = {by: [], past: []}
-    for logged in recorded.messages():
+    for logged in recorded.log():
         if logged.key == "briefing":
             minima = _minima(Briefing.model_validate_json(logged.data))
         callsign = logged.key.removeprefix("truth/state/")

@@ -17,10 +17,11 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from airhilt.cli.output import counted, tell
+from airhilt.cli.output import tell
 from airhilt.cli.parameters import INTERRUPTED
 from airhilt.cli.sweep_output import duration
 from airhilt.errors import AirhiltError
+from airhilt.host.text import counted
 from results.page import Page
 from results.record import ROOT, current_code, write_code
 from results.sections import SECTIONS, Section, Wanted

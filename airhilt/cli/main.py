@@ -78,6 +78,7 @@ def cli() -> None:
     airhilt replay RUN                        run it again and compare
     airhilt verify RUN                        say whether it is as it was written
     airhilt listen RUN                        write what was said, as sound and as text
+    airhilt export RUN --to parquet           write its data as tables
     airhilt sweep --scenario 's02a_*' --snr 0:20:5 --seeds 10    run many, into one table
     airhilt evaluate --preset paper           make the paper's table
     airhilt compare SWEEP SWEEP               say what differs, and how surely

@@ -23,11 +23,6 @@ def tell_page(url: str) -> None:
     click.echo(f"{url}   (end with Ctrl+C)")
 
 
-def counted(count: int, noun: str) -> str:
-    """Return a count with its noun, such as ``1 run`` or ``2 runs``."""
-    return f"{count} {noun}{'s' * (count != 1)}"
-
-
 def echo_json(document: str) -> None:
     """Print a JSON document whole, with escapes for what is no printable character."""
     click.echo("".join(map(_escaped, document)))

@@ -14,9 +14,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from airhilt.cli.output import counted
 from airhilt.host.files import sha256
-from airhilt.host.text import LONGEST_LINE, readable
+from airhilt.host.text import LONGEST_LINE, counted, readable
 from airhilt.sweep.engine import SweepObserver, SweepResult
 from airhilt.sweep.estimate import Estimate
 from airhilt.sweep.outcome import Outcome

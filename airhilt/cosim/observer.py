@@ -1,20 +1,14 @@
-"""Reports of a run to the program that started it: while it goes on, and at its end."""
+"""Reports of a run to the program that started it, while it goes on."""
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
-from pathlib import Path
 
+from airhilt.host.notebook import NotebookLine
 from airhilt.messages import Advisory
-from airhilt.metrics.summary import Summary
-
-
-@dataclass(frozen=True)
-class Result:
-    """The outcome of a run: the numbers of its summary, and its folder."""
-
-    summary: Summary
-    folder: Path
+from airhilt.metrics.summary_rows import factor
+from airhilt.units import FOOT, NAUTICAL_MILE
 
 
 @dataclass(frozen=True)
@@ -35,6 +29,17 @@ class Snapshot:
     vertical_m: float | None
     advisory: Advisory | None
 
+    def texts(self, wall_s: float) -> list[str]:
+        """Return the parts of a progress line but for the advisory, after so much wall time."""
+        parts = [
+            f"{self.t_s:6.1f} of at most {self.duration_s:.0f} s",
+            f"{factor(self.t_s / max(wall_s, 1e-6))} x real time",
+        ]
+        if self.horizontal_m is not None and self.vertical_m is not None:
+            apart = f"{self.horizontal_m / NAUTICAL_MILE:.1f} NM / {self.vertical_m / FOOT:.0f} ft"
+            parts.append(f"{apart} apart")
+        return parts
+
 
 class Observer:
     """Is told how a run is doing; this one ignores it."""
@@ -47,3 +52,24 @@ class Observer:
 
     def machine_failed(self, cause: str) -> None:
         """Take note that the run goes on without something that another machine might have kept."""
+
+
+class NotebookProgress(Observer):
+    """Shows how a run is doing in the notebook that has begun it."""
+
+    def __init__(self, title: str) -> None:
+        self._line = NotebookLine()
+        self._line.show(f"{title}: getting ready")
+        self._begun = 0.0
+
+    def snapshot(self, snapshot: Snapshot) -> None:
+        """Show the run's state."""
+        self._begun = self._begun or time.monotonic()
+        parts = snapshot.texts(time.monotonic() - self._begun)
+        if (advisory := snapshot.advisory) is not None:
+            parts.append(f"{advisory.severity.value} {advisory.message}")
+        self._line.show("  |  ".join(parts))
+
+    def notice(self, text: str) -> None:
+        """Show a line that stays."""
+        self._line.notice(text)

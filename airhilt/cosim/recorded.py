@@ -7,8 +7,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pydantic import TypeAdapter
-
 from airhilt.audio.pcm import SAMPLE_BYTES
 from airhilt.cosim.engines_in_use import is_remote
 from airhilt.engine_families import VOICES
@@ -20,15 +18,14 @@ from airhilt.messages import (
     DroppedMessages,
     EnhancedTransmission,
     Event,
-    SeatAudio,
     SeatAudioClosed,
     SpokenTruth,
     Status,
     Transcript,
     Transmission,
-    TransmissionAudio,
     TransmissionClosed,
     WorkerDescription,
+    decode,
     worker_output,
 )
 from airhilt.options import Options
@@ -43,8 +40,6 @@ from airhilt.workers.pool import Participant
 
 UNENDING_S = 86_400.0
 """Length of a call, in s, that its run has cut off: longer than any run."""
-_AUDIO = TypeAdapter[TransmissionAudio](TransmissionAudio)
-_SEAT_AUDIO = TypeAdapter[SeatAudio](SeatAudio)
 Received = tuple[str, str | None]
 """Id of a call, and the owner of the receiver; None: it is the one at the units' site."""
 
@@ -258,11 +253,11 @@ def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
             if header.samples:
                 received[header.id, None] = header
         elif kind[0] == "radio" and kind[-1] == "audio":
-            audio = _AUDIO.validate_json(logged.data)
+            audio = decode(logged.key, logged.data)
             if isinstance(audio, TransmissionClosed) and not audio.is_complete:
                 received[audio.id, None] = audio
         elif kind[0] == "seat" and kind[-1] == "audio":
-            heard = _SEAT_AUDIO.validate_json(logged.data)
+            heard = decode(logged.key, logged.data)
             if isinstance(heard, SeatAudioClosed) and heard.samples:
                 received[heard.id, heard.seat] = heard
         elif logged.key == "truth/event":

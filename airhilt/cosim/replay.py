@@ -13,14 +13,15 @@ from typing import Any
 from pydantic import ValidationError
 
 from airhilt.cosim.differences import first_difference
-from airhilt.cosim.observer import Observer, Result
+from airhilt.cosim.observer import Observer
 from airhilt.cosim.recorded import depends_on_log, read_recorded
 from airhilt.cosim.simulation import run
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.host.files import content_sha256
 from airhilt.messages import Event
+from airhilt.metrics.result import Result
 from airhilt.metrics.summary import Summary
-from airhilt.record import Logged, Run, RunFolder, RunInfo, open_run, read_log
+from airhilt.record import Logged, Run, RunInfo, open_run, read_log
 from airhilt.record.damage import untold
 from airhilt.record.folder import machine, versions
 from airhilt.scenario import Scenario
@@ -106,15 +107,15 @@ def _repeat(
     original: Run, observer: Observer | None, *, is_rescored: bool = False
 ) -> tuple[Result, Verdict]:
     """Return what came of a run that was run again, and how its log compares."""
-    folder, info = original.folder, original.info
+    folder, info = original.paths, original.info
     if not info.options.voice_recording:
         raise RunFolderError(
             f"{folder.path}: made with --no-voice-recording, so that what people said is not in "
             "it; expected a run with their voices"
         )
     _require_inputs(original, is_rescored)
-    latencies = original.latencies()
-    recorded_log = list(original.messages())
+    latencies = original.steps()
+    recorded_log = list(original.log())
     try:
         scenario = Scenario.model_validate(info.scenario)
     except ValidationError as error:
@@ -142,7 +143,7 @@ def _repeat(
                 f"{folder.log_path}: {first_problem(error)}; expected a log of this version"
             ) from None
         result = run(scenario, options, observer, recorded)
-        repeated = list(read_log(RunFolder(result.folder).log_path))
+        repeated = list(read_log(result.paths.log_path))
     return result, _compare(recorded_log, repeated, original)
 
 
@@ -158,7 +159,7 @@ def _require_inputs(original: Run, is_rescored: bool) -> None:
     """Refuse a recording that is damaged where what is taken from it may have been."""
     if original.log_damage and (is_rescored or depends_on_log(original.info)):
         raise RunFolderError(
-            f"{original.folder.path}: {original.log_damage}; it is needed here, because what "
+            f"{original.folder}: {original.log_damage}; it is needed here, because what "
             "workers, other programs or services said is taken from it"
         )
 

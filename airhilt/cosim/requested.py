@@ -159,7 +159,7 @@ def requested_latency(
             f"{first_difference(info.scenario, document)}; expected the scenario of that run, "
             "which its run.json holds, or a new run to take latencies from"
         )
-    recorded = earlier.latencies()
+    recorded = earlier.steps()
     return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
 
 

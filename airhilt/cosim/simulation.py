@@ -24,7 +24,7 @@ from airhilt.cosim.context import RunContext
 from airhilt.cosim.engines_in_use import is_own_engine
 from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.notices import RadioNotices, SeatNotices, WorkerNotices
-from airhilt.cosim.observer import Observer, Result, Snapshot
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.pace_control import MOST_BEHIND_NS, PaceControl, tell_clock
 from airhilt.cosim.participants import Participants, connect
 from airhilt.cosim.provenance import run_info
@@ -39,6 +39,7 @@ from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import WorkerDescription
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans, Start
+from airhilt.metrics.result import Result
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
 from airhilt.record import LatencyLog, LogWriter, RunInfo
@@ -390,7 +391,7 @@ class Simulation:
         self._clear()
         if error is not None:
             raise error
-        return Result(summary, folder.path)
+        return Result(folder, summary)
 
     def interrupt(self) -> None:
         """Stop after the event in hand."""

@@ -1,4 +1,4 @@
-"""Text from outside, such as that of a program, a file or a library, as people are shown it."""
+"""Text for people: counts, and what comes from outside, such as from a program or a file."""
 
 from __future__ import annotations
 
@@ -32,3 +32,8 @@ def _readable(character: str) -> str:
     if character.isprintable():
         return character
     return " " if character.isspace() else REPLACEMENT
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a count with its noun, such as ``1 run`` or ``2 runs``."""
+    return f"{count} {noun}{'s' * (count != 1)}"

@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import Any
 
 from pydantic import BaseModel, TypeAdapter
+from pydantic_core import from_json
 
 from airhilt.messages.advisories import (
     CONTROLLER,
@@ -219,6 +220,13 @@ WORKER_OUTPUTS: dict[str, type[Message]] = {
 """Messages that a worker may publish, by the first part of the key; never sensors or truth. Only
 equipment of the world publishes on ``equipment``."""
 
+PIECES: dict[str, TypeAdapter[Any]] = {
+    "radio": TypeAdapter(TransmissionAudio),
+    "seat": TypeAdapter(SeatAudio),
+}
+"""Types of the pieces of a transmission, by the first part of their key, which ends on ``audio``.
+"""
+
 
 @lru_cache(maxsize=4096)
 def bus_message(key: str) -> type[Message] | None:
@@ -234,6 +242,22 @@ def bus_message(key: str) -> type[Message] | None:
         ):
             return model
     return None
+
+
+def decode(key: str, data: bytes) -> Message | dict[str, Any]:
+    """Return the message in the JSON of a key below ``airhilt/<run>/``.
+
+    One whose class is not known, such as that of another package, is a dictionary. It raises
+    ValueError if the JSON is no such message.
+    """
+    if (model := bus_message(key)) is not None:
+        return model.model_validate_json(data)
+    first, *_, last = key.split("/")
+    if first in PIECES and last == "audio":
+        piece: Message = PIECES[first].validate_json(data)
+        return piece
+    content: dict[str, Any] = from_json(data)
+    return content
 
 
 def worker_output(key: str) -> type[Message] | None:

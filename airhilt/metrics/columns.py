@@ -1,13 +1,14 @@
-"""Summaries as flat rows: of a run, of a person at a seat, of one reaction or call of a person.
+"""Models as flat rows: summaries of a run or of a person, one call of a person, messages.
 
-A row has a column for each number, by rule from the models; lists have none. A field of a model
-within another has the names of both, such as ``radio_wer``. Every run has the same columns.
+A row has a column for each single value, by rule from the models. A field of a model within another
+has the names of both, such as ``radio_wer``. A list of texts is one text; other lists have no
+column. Every run has the same columns.
 """
 
 from __future__ import annotations
 
 import types
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -25,9 +26,10 @@ Kind = Literal["string", "bool", "int64", "float64"]
 """Type of a column, by the name that Apache Arrow has for it."""
 Value = str | bool | int | float | None
 
-NOT_METRICS = frozenset(
-    {"scenario", "seed", "assistant", "latency_sources", "too_slow", "real_time_factor", "cpu_s"}
-)
+NOT_METRICS = frozenset({
+    "scenario", "seed", "assistant", "conflict_actors", "latency_sources", "too_slow",
+    "real_time_factor", "cpu_s",
+})  # fmt: skip
 """Fields of the summary that are no result: what the run was, and what depends on the machine."""
 NOT_OF_A_PERSON = frozenset({"seat", "workload"})
 """Fields of a person that have no column: the name of the seat, and answers, which tables have of
@@ -39,6 +41,8 @@ KNOWN_KEYS: Mapping[str, tuple[str, ...]] = {
     "hearing": get_args(HearingTruth.model_fields["outcome"].annotation),
 }
 """Keys of the fields that are dictionaries; other keys, such as a worker's own, have no column."""
+BETWEEN_TEXTS = "; "
+"""Put between the texts of a list in one column."""
 UNITS = {
     "_per_minute": "1/min",
     "_per_hour": "1/h",
@@ -46,8 +50,15 @@ UNITS = {
     "_px": "px",
     "_ft_s": "ft s",
     "_nm_s": "NM s",
+    "_m_s": "m/s",
     "_m": "m",
     "_s": "s",
+    "_deg": "deg",
+    "_degrees": "deg",
+    "_ft": "ft",
+    "_kt": "kt",
+    "_fpm": "ft/min",
+    "_khz": "kHz",
 }
 """Unit by the end of a name; any other number has the unit 1: a count or a share."""
 
@@ -126,38 +137,53 @@ def _of_type(
 ) -> Iterator[Column]:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield from _of_model(annotation, path)
+    elif get_origin(annotation) is Union:
+        members = (each for model in get_args(annotation) for each in _of_model(model, path))
+        yield from {each.name: each for each in members}.values()
     elif (kind := _kind(annotation)) is not None:
-        words = " ".join(context).replace("_", " ")
-        description = f"{words}: {info.description}" if words else f"{info.description}"
-        yield column_of("_".join(path), kind, description, path)
+        words = (" ".join(context).replace("_", " "), info.description)
+        yield column_of("_".join(path), kind, ": ".join(filter(None, words)), path)
 
 
 def _bare(annotation: Any) -> Any:
-    """Return a type without ``None`` and annotations."""
+    """Return a type without ``None`` and annotations; one of several models is their union."""
     if get_origin(annotation) is Annotated:
         return _bare(get_args(annotation)[0])
     if get_origin(annotation) in (Union, types.UnionType):
-        (only,) = (each for each in get_args(annotation) if each is not types.NoneType)
-        return _bare(only)
+        first, *others = (each for each in get_args(annotation) if each is not types.NoneType)
+        return Union[first, *others] if others else _bare(first)
     return annotation
 
 
 def _kind(annotation: Any) -> Kind | None:
-    """Return the type of a column, None for a list of values."""
+    """Return the type of a column, None for what has no column."""
     is_type = isinstance(annotation, type)
+    if get_origin(annotation) is tuple and get_args(annotation) == (str, ...):
+        return "string"
     if get_origin(annotation) is Literal or (is_type and issubclass(annotation, str)):
         return "string"
     kinds: dict[type, Kind] = {bool: "bool", int: "int64", float: "float64"}
     return kinds.get(annotation) if is_type else None
 
 
+def _text(value: Any) -> str:
+    return BETWEEN_TEXTS.join(value) if isinstance(value, list) else str(value)
+
+
+CONVERT: Mapping[Kind, Callable[[Any], Value]] = {
+    "string": _text,
+    "bool": bool,
+    "int64": int,
+    "float64": float,
+}
+"""Makes the value of a column from what JSON has."""
+
+
 def _at(content: Mapping[str, Any], column: Column) -> Value:
     found: Any = content
     for key in column.path:
         found = None if found is None else found.get(key)
-    convert = {"string": str, "bool": bool, "int64": int, "float64": float}
-    value: Value = None if found is None else convert[column.type](found)
-    return value
+    return None if found is None else CONVERT[column.type](found)
 
 
 OF_RUNS = FlatRow(Summary, DERIVED, NOT_METRICS)

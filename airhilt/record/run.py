@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -19,24 +20,37 @@ from airhilt.units import SECOND_NS
 class Run:
     """A run folder whose files that commands read have been compared with its manifest."""
 
-    def __init__(self, folder: RunFolder) -> None:
-        self.folder = folder
-        self.info: RunInfo = folder.info()
-        self.log_damage = _log_problem(folder, self.info)
+    def __init__(self, paths: RunFolder) -> None:
+        self.paths = paths
+        self.info: RunInfo = paths.info()
+
+    @property
+    def folder(self) -> Path:
+        """The run folder."""
+        return self.paths.path
+
+    @cached_property
+    def log_damage(self) -> str:
         """From when to when the log is damaged, empty if it is not."""
+        return _log_problem(self.paths, self.info)
+
+    @cached_property
+    def damage(self) -> tuple[str, ...]:
+        """A line for each file that commands read and that is not as the run wrote it.
+
+        These are ``run.json``, the log, the latencies and the summary; sound, pictures and videos
+        are not among them.
+        """
         lines = (
-            _info_problem(folder),
+            _info_problem(self.paths),
             self.log_damage,
-            *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
+            *(self._problem(path) for path in (self.paths.latency_path, self.paths.summary_path)),
         )
-        self.damage = tuple(filter(None, lines))
-        """A line for each file that commands read and that is not as the run wrote it:
-        ``run.json``, the log, the latencies, the summary. Sound, pictures and videos are not among
-        them."""
+        return tuple(filter(None, lines))
 
     def damage_of_all_files(self) -> tuple[str, ...]:
         """Return `damage`, and a line for each other file of the manifest that was changed."""
-        folder = self.folder
+        folder = self.paths
         checked = {folder.log_path.name, folder.latency_path.name, folder.summary_path.name}
         lines = (
             problem_of(folder.path, name, record)
@@ -45,39 +59,39 @@ class Run:
         )
         return (*self.damage, *filter(None, lines))
 
-    def messages(self) -> Iterator[Logged]:
+    def log(self) -> Iterator[Logged]:
         """Yield the messages of the log without what is damaged; else as `LogReader.messages`."""
-        return LogReader(self.folder.log_path).messages()
+        return LogReader(self.paths.log_path).messages()
 
-    def latencies(self) -> RecordedLatencies:
+    def steps(self) -> RecordedLatencies:
         """Return the steps of the workers.
 
         It raises `RunFolderError` if they cannot be read, or are not those that the run wrote.
         """
-        if problem := self._problem(self.folder.latency_path):
+        if problem := self._problem(self.paths.latency_path):
             raise RunFolderError(
-                f"{self.folder.path}: {problem}; expected the latencies that the run had"
+                f"{self.folder}: {problem}; expected the latencies that the run had"
             )
-        return read_latencies(self.folder.latency_path)
+        return read_latencies(self.paths.latency_path)
 
-    def summary(self) -> dict[str, Any]:
-        """Return the numbers of the run.
+    def numbers(self) -> dict[str, Any]:
+        """Return the numbers of the run, the content of ``summary.json``.
 
         It raises `RunFolderError` if they cannot be read, or are not those that the run wrote.
         """
-        path = self.folder.summary_path
+        path = self.paths.summary_path
         problem = self._problem(path)
-        numbers = None if problem else self.folder.summary()
+        numbers = None if problem else self.paths.summary()
         if numbers is None:
             raise RunFolderError(
-                f"{self.folder.path}: {problem or f'{path.name}: missing'}; expected the numbers "
+                f"{self.folder}: {problem or f'{path.name}: missing'}; expected the numbers "
                 "of the run"
             )
         return numbers
 
     def _problem(self, path: Path) -> str:
         record = self.info.files.get(path.name)
-        return "" if record is None else problem_of(self.folder.path, path.name, record)
+        return "" if record is None else problem_of(self.folder, path.name, record)
 
 
 def open_run(path: str | Path, notice: Notice | None = None) -> Run:
@@ -87,7 +101,7 @@ def open_run(path: str | Path, notice: Notice | None = None) -> Run:
     raises `RunFolderError` if there is no run in it, or its ``run.json`` cannot be read.
     """
     run = Run(RunFolder.open(Path(path)))
-    tell_damage(run.folder.path, run.damage, notice)
+    tell_damage(run.folder, run.damage, notice)
     return run
 
 

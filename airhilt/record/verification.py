@@ -24,7 +24,7 @@ from airhilt.record.signature import (
 from airhilt.record.sweep_folder import SweepFolder, is_sweep
 from airhilt.units import SECOND_NS
 
-MADE_AGAIN = ("report.html", "frequency-*.wav", "frequency-*.txt", "figures/*")
+MADE_AGAIN = ("report.html", "frequency-*.wav", "frequency-*.txt", "figures/*", "export/*")
 """Names of the files that commands make from a run or a sweep, and that no manifest has."""
 DAMAGED, UNFINISHED = 1, 3
 """Exit codes of what is damaged, or not that of the key, and of what has no end or no manifest."""

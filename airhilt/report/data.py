@@ -125,8 +125,8 @@ def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> R
     The page is the file that is written. It raises `RunFolderError` if the log cannot be read; else
     as `RunData.as_json`.
     """
-    with _of_record(recorded.folder):
-        info, folder = recorded.info, recorded.folder
+    with _of_record(recorded.paths):
+        info, folder = recorded.info, recorded.paths
         notes = [f"Damaged: {readable(line)}." for line in recorded.damage]
         log = _Log(_points_a_track(info), contents)
         log.read(recorded, notes)
@@ -187,7 +187,7 @@ class _Log:
     def read(self, recorded: Run, notes: list[str]) -> None:
         """Read the log up to where it breaks off."""
         try:
-            for logged in recorded.messages():
+            for logged in recorded.log():
                 self._take(logged)
         except RunFolderError as error:
             notes.append(

@@ -126,36 +126,68 @@ def write_frequency(
     """
     run = open_run(run_folder, notice)
     recording = read_frequency(run, frequency_khz)
-    wav = out or run.folder.path / f"frequency-{recording.frequency_khz}.wav"
+    wav = out or run.folder / f"frequency-{recording.frequency_khz}.wav"
     if wav.suffix.lower() != ".wav":
         raise SpeechError(f"{wav}: cannot be written; expected a name that ends with .wav")
+    return recording, wav, write_recording(recording, wav)
+
+
+def write_recording(recording: FrequencyRecording, wav: Path) -> Path:
+    """Write the sound of a frequency, and its transcript beside it, whose path is returned.
+
+    It raises what `write_frequency` does.
+    """
     text = wav.with_suffix(".txt")
     write_wav_pieces(wav, recording.sound.pieces())
     try:
         replace_file(text, recording.text().encode())
     except OSError as error:
         raise SpeechError(f"{text}: cannot be written: {error.strerror}") from None
-    return recording, wav, text
+    return text
 
 
 def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecording:
     """Return the sound of a frequency, and what was said on it; else as `write_frequency`."""
+    received = _received(run)
+    return _recording(run, received, _choose(run.paths, _used(received), frequency_khz))
+
+
+def read_frequencies(run: Run) -> Iterator[FrequencyRecording]:
+    """Yield the recordings of all frequencies on which there was sound; else as `read_frequency`.
+
+    Nothing is yielded of a run without speech.
+    """
+    received = _received(run)
+    with_sound = [tx for _, tx in received if tx.samples]
+    for frequency_khz in sorted({tx.frequency_khz for tx in with_sound}):
+        yield _recording(run, received, frequency_khz)
+
+
+def _received(run: Run) -> list[tuple[CallRecord, Transmission]]:
     records = CallRecords()
     try:
-        for logged in run.messages():
+        for logged in run.log():
             records.read(logged.key, logged.data)
     except ValidationError as error:
         raise RunFolderError(
-            f"{run.folder.log_path}: {first_problem(error)}; expected a log of this version of "
+            f"{run.paths.log_path}: {first_problem(error)}; expected a log of this version of "
             "AIRHILT"
         ) from None
-    received = [(call, tx) for call in records if (tx := call.received) is not None]
-    chosen = _choose(run.folder, sorted({tx.frequency_khz for _, tx in received}), frequency_khz)
-    tuned = [(call, tx) for call, tx in received if tx.frequency_khz == chosen]
+    return [(call, tx) for call in records if (tx := call.received) is not None]
+
+
+def _used(received: Iterable[tuple[CallRecord, Transmission]]) -> list[int]:
+    return sorted({tx.frequency_khz for _, tx in received})
+
+
+def _recording(
+    run: Run, received: Iterable[tuple[CallRecord, Transmission]], frequency_khz: int
+) -> FrequencyRecording:
+    tuned = [(call, tx) for call, tx in received if tx.frequency_khz == frequency_khz]
     tuned.sort(key=lambda one: (one[1].t_tx_ns, one[1].id))
-    sound = splice(run.folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for _, tx in tuned))
+    sound = splice(run.paths, ((tx.t_tx_ns, tx.t_end_ns, tx) for _, tx in tuned))
     calls = [_call(call, tx) for call, tx in tuned]
-    return FrequencyRecording(run.info.run, chosen, calls, sound, run.damage)
+    return FrequencyRecording(run.info.run, frequency_khz, calls, sound, run.damage)
 
 
 def _choose(folder: RunFolder, used: Sequence[int], frequency_khz: int | None) -> int:

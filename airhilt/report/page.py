@@ -37,7 +37,7 @@ def write_report(run_folder: Path, out: Path | None = None, notice: Notice = unt
     is damaged, or the page cannot be written.
     """
     run = open_run(run_folder, notice)
-    page = out or run.folder.report_path
+    page = out or run.paths.report_path
     write_page(page, render(run, page))
     return page
 
@@ -45,7 +45,7 @@ def write_report(run_folder: Path, out: Path | None = None, notice: Notice = unt
 def render(recorded: Run, page: Path) -> str:
     """Return the page of a run as HTML; ``page`` is the file that it will be."""
     sections, problems = load_members(FAMILY)
-    contents = [GuardedContent(section, recorded.folder) for section in sections]
+    contents = [GuardedContent(section, recorded.paths) for section in sections]
     run = read_run(recorded, page, contents)
     own = {content.section.name: content.as_json(run) for content in contents}
     problems += [note for content in contents for note in content.notes]

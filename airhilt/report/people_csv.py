@@ -32,7 +32,7 @@ def write_people_csv(run: Run, path: Path) -> None:
     question, and a row ``call`` for each call. It raises `RunFolderError` if there is no summary,
     or not the one that the run wrote, or the file cannot be written.
     """
-    summary, folder = run.summary(), run.folder
+    summary, folder = run.numbers(), run.paths
     table = io.StringIO(newline="")
     writer = csv.DictWriter(table, COLUMNS, extrasaction="ignore")
     writer.writeheader()

@@ -42,10 +42,10 @@ class Debrief:
     """
 
     def __init__(self, run: Run) -> None:
-        log = RecordedMessages(run.folder)
+        log = RecordedMessages(run.paths)
         section = Section("debrief", order=0, module=__file__, content=lambda _: log, keys=KEYS)
-        content = GuardedContent(section, run.folder)
-        data = read_run(run, run.folder.report_path, [content])
+        content = GuardedContent(section, run.paths)
+        data = read_run(run, run.paths.report_path, [content])
         own = content.as_json(data) or dict.fromkeys(OWN, ())
         self._locate, self._cameras = data.locate, log.cameras
         self.sounds = Sounds(run, log.frequencies_khz, log.spoken, log.heard_at_seats)
@@ -56,7 +56,7 @@ class Debrief:
             **{name: shared[name] for name in SHARED},
             **own,
             "notes": [*shared["notes"], *map(readable, content.notes), *damaged],
-            "folder": str(run.folder.path),
+            "folder": str(run.folder),
             "sounds": self.sounds.names,
         }
 

@@ -133,7 +133,7 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
         }
         folder = progress.folder / name
         try:
-            rows = _of_summary(open_run(folder, untold).summary(), progress.seat(trial))
+            rows = _of_summary(open_run(folder, untold).numbers(), progress.seat(trial))
         except CANNOT_READ as error:
             raise RunFolderError(
                 f"{folder}: its numbers cannot be read ({first_line(error)}); expected them as a "

@@ -61,10 +61,10 @@ def kept_pictures(run: Run) -> tuple[Pictures, list[str]]:
     found: Pictures = {}
     notes = []
     for path, name in _named(run)[:MOST_KEPT]:
-        problem = result_problem(run.folder, run.info, path)
+        problem = result_problem(run.paths, run.info, path)
         if not problem:
             try:
-                content = read_inside(run.folder.path, path, MOST_BYTES)
+                content = read_inside(run.folder, path, MOST_BYTES)
                 image = Image.open(io.BytesIO(content), formats=["PNG"])
                 found[name.camera, name.seq] = encoded(image.convert("RGB"))
             except OSError as error:
@@ -78,7 +78,7 @@ def kept_pictures(run: Run) -> tuple[Pictures, list[str]]:
 
 def _named(run: Run) -> list[tuple[Path, PictureName]]:
     """Return the pictures of full size in the folder of a run, those with a record first."""
-    folder = run.folder.pictures_path
+    folder = run.paths.pictures_path
     names = {path: PictureName.of(path) for path in sorted(folder.glob("*.png"))}
     found = [(path, name) for path, name in names.items() if name and name.path(folder) == path]
     return sorted(found, key=lambda one: f"pictures/{one[0].name}" not in run.info.files)

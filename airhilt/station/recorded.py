@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic import TypeAdapter
-
 from airhilt.messages import (
     ActorTruth,
     Advisory,
@@ -15,9 +13,9 @@ from airhilt.messages import (
     CameraTruth,
     Detections,
     EquipmentAlert,
-    SeatAudio,
     SeatAudioClosed,
     bus_message,
+    decode,
     key_chunk,
 )
 from airhilt.metrics.calls import CallRecords
@@ -39,7 +37,6 @@ KEYS = (
     "truth/camera/", "truth/hearing/", "truth/radio/", "tts/", "vision/",
 )  # fmt: skip
 """Beginnings of the keys of the messages that are read."""
-_SEAT_AUDIO = TypeAdapter[SeatAudio](SeatAudio)
 
 
 class RecordedMessages(Content):
@@ -81,7 +78,7 @@ class RecordedMessages(Content):
             state = ActorTruth.model_validate_json(logged.data)
             self.states.setdefault(state.actor, []).append(state_row(state))
         elif logged.key.startswith("seat/") and logged.key.endswith("/audio"):
-            audio = _SEAT_AUDIO.validate_json(logged.data)
+            audio = decode(logged.key, logged.data)
             if isinstance(audio, SeatAudioClosed) and audio.samples:
                 name = f"{audio.frequency_khz}@{key_chunk(audio.seat)}"
                 self.heard_at_seats.setdefault(name, []).append(audio)

@@ -75,11 +75,11 @@ class Sounds:
     def _sound(self, name: str) -> SplicedSound:
         if name in self._at_seats:
             in_order = sorted(self._at_seats[name], key=lambda one: (one.t_tx_ns, one.id))
-            return splice(self._run.folder, ((one.t_tx_ns, one.t_end_ns, one) for one in in_order))
+            return splice(self._run.paths, ((one.t_tx_ns, one.t_end_ns, one) for one in in_order))
         if name != ASSISTANT:
             return read_frequency(self._run, int(name)).sound
         heard = ((one.t_ns, _end_ns(one), one) for one in self._spoken)
-        return splice(self._run.folder, heard)
+        return splice(self._run.paths, heard)
 
     def close(self) -> None:
         """Delete the files."""

@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, Any
 from pydantic import JsonValue
 
 from airhilt.errors import AirhiltError
+from airhilt.host.notebook import NotebookLine
+from airhilt.host.text import counted
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
 from airhilt.sensors.cameras import UNSEEN_FIELDS
 from airhilt.sweep.cases import Case, cases
@@ -53,6 +55,34 @@ class SweepObserver:
     def stops(self) -> bool:
         """True if only the runs in hand are to be finished."""
         return False
+
+
+class NotebookSweepProgress(SweepObserver):
+    """Shows how many runs have ended in the notebook that has begun the sweep."""
+
+    def __init__(self) -> None:
+        self._line = NotebookLine()
+        self._total = self._done = self._failed = 0
+
+    def begun(self, total: int, finished: int, workers: str) -> None:  # noqa: ARG002
+        """Show how many runs there are."""
+        self._total, self._done = total, finished
+        self._show()
+
+    def ended(self, outcome: Outcome) -> None:
+        """Count a run."""
+        self._done += 1
+        self._failed += outcome.status != "finished"
+        self._show()
+
+    def notice(self, text: str) -> None:
+        """Show a line that stays."""
+        self._line.notice(text)
+
+    def _show(self) -> None:
+        failed = f", {self._failed} failed" if self._failed else ""
+        done = f"{self._done} of {counted(self._total, 'run')}{failed}"
+        self._line.show(done, is_last=self._done == self._total)
 
 
 @dataclass(frozen=True)

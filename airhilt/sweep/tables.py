@@ -10,6 +10,7 @@ from typing import Any
 import pyarrow as pa
 
 from airhilt.metrics.columns import Column, Kind, column_of, metric_columns
+from airhilt.metrics.frames import table_of
 from airhilt.sweep.cases import Case
 from airhilt.sweep.outcome import OF_THE_MACHINE, Machine, Outcome
 
@@ -73,15 +74,19 @@ def part_of(outcomes: Iterable[Outcome]) -> pa.Table:
 def tables_of(
     cases: Mapping[str, Case], finished: Mapping[str, Mapping[str, Any]]
 ) -> tuple[pa.Table, pa.Table]:
-    """Return the table of results and the table of the machine, both sorted by key.
+    """Return the table of results and the table of the machine.
+
+    Both are sorted by scenario, assistant, parameters and seed.
 
     Parameters
     ----------
     finished
         Rows of the parts by their keys; rows of other runs are left out.
     """
-    keys = sorted(key for key in cases if key in finished)
     names = _column_names(cases.values())
+    keys = sorted(
+        (key for key in cases if key in finished), key=lambda key: _place(cases[key], names, key)
+    )
     results = [
         {
             **finished[key],
@@ -108,6 +113,18 @@ def tables_of(
     ]
     columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
     return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
+
+
+def _place(case: Case, names: Iterable[str], key: str) -> tuple[Any, ...]:
+    """Return what a run is sorted by; a parameter may be null, a number, a text or a structure."""
+    values = [_rank(case.parameters.get(path)) for path in names]
+    return (case.scenario, case.assistant, values, case.seed, key)
+
+
+def _rank(value: Any) -> tuple[int, Any]:
+    if value is None:
+        return 0, 0
+    return (1, value) if isinstance(value, int | float) else (2, _text(value))
 
 
 def grid_sha256(cases: Mapping[str, Case]) -> str:
@@ -141,26 +158,15 @@ def _kind(values: Iterable[Any]) -> Kind:
 
 
 def _table(columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pa.Table:
-    """Return rows as a table whose fields say their units and meanings."""
-    schema = pa.schema(
-        [
-            pa.field(
-                column.name,
-                pa.type_for_alias(column.type),
-                metadata={"unit": column.unit, "description": column.description},
-            )
-            for column in columns
-        ]
-    )
-    arrays = [
-        pa.array([_cell(row.get(column.name), column) for row in rows], field.type)
-        for column, field in zip(columns, schema, strict=True)
-    ]
-    return pa.table(arrays, schema=schema)
+    """Return rows as a table, in which texts stand for the values of other types."""
+    cells = ({each.name: _cell(row.get(each.name), each) for each in columns} for row in rows)
+    return table_of(columns, cells)
 
 
 def _cell(value: Any, column: Column) -> Any:
     """Return a value as its column has it: in a column of texts, other values as JSON."""
-    if column.type == "string" and value is not None and not isinstance(value, str):
-        return json.dumps(value)
-    return value
+    return value if value is None or column.type != "string" else _text(value)
+
+
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else json.dumps(value)

@@ -19,7 +19,6 @@ from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
 from airhilt.cli.commands.doctor import examine
-from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
 from airhilt.engine_families import DETECTORS, RECOGNISERS
 from airhilt.engines import Package
@@ -32,6 +31,7 @@ from airhilt.messages import (
     Message,
     Severity,
 )
+from airhilt.metrics.result import Result
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from engine_package import installed

@@ -185,7 +185,7 @@ def test_a_report_leaves_out_a_message_that_no_run_writes(
     airhilt_command: Any, run_copy: Path, data: bytes
 ) -> None:
     folder = RunFolder(run_copy)
-    messages = list(airhilt.open_run(run_copy).messages())
+    messages = list(airhilt.open_run(run_copy).log())
     log = LogWriter(folder.log_path)
     for logged in messages:
         written = data if logged.key in ("truth/event", "status/decision") else logged.data

@@ -47,9 +47,7 @@ def test_a_crew_that_goes_around_on_advice_says_so_and_its_tower_acts_on_that(
         "s01a_tight_timing", out=out, recipients="crew", speech=False, cameras=False, report=False,
         latency="fixed",
     )  # fmt: skip
-    said = [
-        (each["speaker"], each["text"].lower()) for each in calls(list(open_run(out).messages()))
-    ]
+    said = [(each["speaker"], each["text"].lower()) for each in calls(list(open_run(out).log()))]
     tells = said.index(("AAL123", "washington tower, american one twenty three, going around."))
     after = [text for speaker, text in said[tells:] if speaker != "AAL123"]
     assert any("downwind" in text for text in after)

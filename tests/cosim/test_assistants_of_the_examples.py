@@ -12,7 +12,7 @@ import pytest
 
 from airhilt import Scenario, load, run
 from airhilt.bus import free_endpoint
-from airhilt.cosim.observer import Result
+from airhilt.metrics.result import Result
 from airhilt.world.loading import load_text
 from paths import EXAMPLES
 from processes import process

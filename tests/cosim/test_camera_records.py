@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from airhilt.cli.progress import print_summary
-from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, RendererError, RunFolderError, VideoError
+from airhilt.metrics.result import Result
 from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
 from airhilt.record.pictures import PictureName

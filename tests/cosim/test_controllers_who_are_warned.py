@@ -24,7 +24,7 @@ def told_alone(name: str, out: Path, **controller: Any) -> tuple[Summary, list[L
         update={"cameras": (), "controllers": {TOWER: Controller(**controller)}}
     )
     options = Options(out=out, latency="fixed", recipients="controller", report=False)
-    return run(scenario, options).summary, list(open_run(out).messages())
+    return run(scenario, options).summary, list(open_run(out).log())
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ import pytest
 from airhilt import load, run
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
-from airhilt.cosim.observer import Result
+from airhilt.metrics.result import Result
 from airhilt.record import read_log
 from breadth import mostly_slow
 from notices import Notices

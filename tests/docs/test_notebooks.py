@@ -25,9 +25,15 @@ def test_the_notebook_runs_a_sweep_and_plots_it(
     for cell in notebook.cells:
         cell.source = cell.source.replace('"s02a_vertical"', '"short.json"')
         cell.source = cell.source.replace("seeds=5", "seeds=2").replace("[-6, 0, 6, 12]", "[0, 10]")
+    one = 'airhilt.run("short.json", out="runs/one", **options)'
+    notebook.cells.append(nbformat.v4.new_code_cell(one))  # type: ignore[no-untyped-call]
     client = NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}})
     client.execute()
     assert (tmp_path / "sweeps" / "notebook" / "sweep.parquet").exists()
-    table, plot = [cell.outputs for cell in notebook.cells if cell.cell_type == "code"][1:]
+    outputs = [cell.outputs for cell in notebook.cells if cell.cell_type == "code"]
+    (progress,), table, plot, (line, result) = outputs
+    assert progress.data["text/plain"] == "8 of 8 runs"
+    assert "x real time" in line.data["text/plain"]
+    assert "time to first warning" in result.data["text/html"]
     assert "adsb_only" in table[0].data["text/html"]
     assert any("image/png" in output.get("data", {}) for output in plot)

@@ -22,7 +22,7 @@ SPAN = re.compile(r"from ([\d.]+) s to (?:([\d.]+) s|its end)")
 
 
 def messages(folder: Path) -> list[Logged]:
-    return list(quiet(folder).messages())
+    return list(quiet(folder).log())
 
 
 def quiet(folder: Path) -> Run:
@@ -35,7 +35,7 @@ def seconds_of(line: str) -> list[tuple[float, float]]:
 
 def assert_named_or_harmless(before: list[Logged], damaged: Run) -> None:
     """What is left is what the run wrote, and what is not there lies within what is named."""
-    left = list(damaged.messages())
+    left = list(damaged.log())
     by_sequence = {message.sequence: message for message in before}
     assert all(by_sequence[message.sequence] == message for message in left)
     assert left == sorted(left, key=lambda message: message.sequence)
@@ -79,10 +79,10 @@ def test_a_flipped_bit_of_a_killed_run_is_named_or_changes_no_message(run_copy: 
     for _ in range(FLIPS):
         flip(log, draw.randrange(8 * len(whole)))
         damaged = quiet(run_copy)
-        if len(list(damaged.messages())) < len(before) and damaged.damage:
+        if len(list(damaged.log())) < len(before) and damaged.damage:
             assert_named_or_harmless(before, damaged)
         else:  # What the file may have ended with is not known: a prefix is all there is.
-            left = list(damaged.messages())
+            left = list(damaged.log())
             assert left == before[: len(left)]
         log.write_bytes(whole)
 
@@ -118,7 +118,7 @@ def test_damage_after_the_last_message_is_said_to_be_outside_of_the_messages(
         assert damaged.damage == (
             "log.mcap: damaged outside of its messages, all of which are read",
         )
-        assert list(damaged.messages()) == before
+        assert list(damaged.log()) == before
         log.write_bytes(whole)
 
 
@@ -166,7 +166,7 @@ def test_larger_damage_gives_messages_of_the_run_in_order_and_is_named(
         damaged = quiet(run_copy)
         if is_killed and not damaged.damage:
             try:
-                left = list(damaged.messages())
+                left = list(damaged.log())
             except RunFolderError:
                 continue  # Nothing of it can be read.
             assert left == before[: len(left)]
@@ -181,7 +181,7 @@ def test_a_truncated_log_of_a_finished_run_says_from_when_on(run_copy: Path, sha
     before, data = messages(run_copy), log.read_bytes()
     log.write_bytes(data[: int(share * chunks(data)[-1])])
     damaged = quiet(run_copy)
-    left = list(damaged.messages())
+    left = list(damaged.log())
     assert left == before[: len(left)]
     ((begin_s, end_s),) = seconds_of(damaged.damage[0])
     assert begin_s == pytest.approx(left[-1].t_ns / SECOND_NS, abs=1e-3)
@@ -222,7 +222,7 @@ def test_python_warns_of_what_is_damaged_and_gives_the_rest(run_copy: Path) -> N
     flip(run_copy / "log.mcap", 8 * 2000)
     with pytest.warns(UserWarning, match=r"log\.mcap: damaged from .* s to .* s: \d+ messages"):
         run = airhilt.open_run(run_copy)
-    assert list(run.messages())
+    assert list(run.log())
     assert run.info.phase == "finished"
 
 

@@ -103,7 +103,7 @@ def _run(options: Options, ends: threading.Event) -> None:
 
 
 def log_of(out: Path) -> list[Logged]:
-    return list(open_run(out).messages())
+    return list(open_run(out).log())
 
 
 def test_words_are_transmitted_only_of_who_has_the_seat_and_agrees(tmp_path: Path) -> None:

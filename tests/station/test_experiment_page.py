@@ -354,7 +354,7 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
     assert all(0.0 < float(row["person.seat_time_s"]) <= 12.0 for row in rows)
     agreed = [
         (one["subject"], one["text"])
-        for one in contents(list(open_run(folder / run).messages()), "truth/event")
+        for one in contents(list(open_run(folder / run).log()), "truth/event")
         if "agree" in one["text"]
     ]
     assert agreed == [

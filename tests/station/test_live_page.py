@@ -66,12 +66,12 @@ def test_the_run_goes_on_when_its_page_is_killed(brief_file: Path, tmp_path: Pat
     assert run.info.phase == "finished"
     assert not run.info.unregistered_programs
     assert not any(
-        logged.key == "truth/event" and b"unregistered" in logged.data for logged in run.messages()
+        logged.key == "truth/event" and b"unregistered" in logged.data for logged in run.log()
     )
 
 
 def events(out: Path) -> list[dict[str, Any]]:
-    messages = open_run(out).messages()
+    messages = open_run(out).log()
     return [json.loads(one.data) for one in messages if one.key == "truth/event"]
 
 
@@ -129,7 +129,7 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
                 pass
         page_process(process).kill()
         assert process.wait(timeout=PATIENCE_S) == 0
-    messages = list(open_run(out).messages())
+    messages = list(open_run(out).log())
     acts = [json.loads(one.data)["act"]["do"] for one in messages if one.key == "seat/AAL123/do"]
     # The seat is left with the page that is killed, at the latest.
     assert acts == ["take", "agree", "text", "fly", "leave"]

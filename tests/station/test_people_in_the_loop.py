@@ -95,7 +95,7 @@ def end_page(run: subprocess.Popen[str]) -> None:
 
 
 def contents(out: Path, key: str) -> list[dict[str, Any]]:
-    return [json.loads(one.data) for one in open_run(out).messages() if one.key.startswith(key)]
+    return [json.loads(one.data) for one in open_run(out).log() if one.key.startswith(key)]
 
 
 def test_a_spoken_clearance_is_recognised_read_back_and_flown(tmp_path: Path) -> None:

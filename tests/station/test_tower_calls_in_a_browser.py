@@ -60,7 +60,7 @@ RECOGNISED = (
 
 def seen_of(call: dict[str, Any], out: Path) -> Seen:
     """Return what the addressee of a call is seen to do from the moment of saying on."""
-    log = list(open_run(out).messages())
+    log = list(open_run(out).log())
     acts = contents(log, "seat/Washington_Tower/do")
     said = [act["t_ns"] for act in acts if act["act"]["do"] in ("text", "press")]
     first = said[-1 - len(call.get("then", ()))]
@@ -143,5 +143,5 @@ def test_what_is_spoken_at_the_seat_of_a_tower_is_done_or_refused_or_asked_about
 
 def commands_of(callsign: str, out: Path) -> list[dict[str, Any]]:
     """Return what somebody did of the calls of a run."""
-    events = contents(list(open_run(out).messages()), "truth/event")
+    events = contents(list(open_run(out).log()), "truth/event")
     return [each for each in events if (each["kind"], each["subject"]) == ("command", callsign)]

@@ -12,8 +12,8 @@ from airhilt import load
 from airhilt.cosim import cameras as vision
 from airhilt.cosim import participants as team
 from airhilt.cosim import simulation as cosim
-from airhilt.cosim.observer import Result
 from airhilt.cosim.reference_workers import reference_workers
+from airhilt.metrics.result import Result
 from airhilt.options import Options
 from airhilt.scenario import Scenario
 from oracle import BlankSceneRenderer, Oracle

@@ -70,7 +70,7 @@ def logged(
         | more
     )
     run(scenario, options, recorded=Recorded(unregistered=tuple(messages)))
-    return list(open_run(out).messages())
+    return list(open_run(out).log())
 
 
 def contents(log: Sequence[Logged], key: str) -> list[dict[str, Any]]:

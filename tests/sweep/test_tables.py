@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import JsonValue
+
 from airhilt.sweep.cases import Case
 from airhilt.sweep.tables import tables_of
 
@@ -18,3 +20,16 @@ def test_a_parameter_with_the_name_of_a_metric_has_a_column_beside_it() -> None:
     assert table[parameter].to_pylist() == [240.0]
     assert table["duration_s"].to_pylist() == [239.9]
     assert table["lost"].to_pylist() == [True]
+
+
+def test_rows_are_sorted_by_scenario_assistant_parameters_and_seed() -> None:
+    values: list[JsonValue] = [None, -5.0, 0, 3.5, 20, [1, 2], "auto"]
+    expected = [(value, seed) for value in values for seed in (0, 1, 10)]
+    cases = {
+        f"{100 - place:03d}": Case(DOCUMENT, {"assistant": "none"}, seed, {"any": value})
+        for place, (value, seed) in enumerate(expected)
+    }
+    finished = {key: {"key": key, "status": "finished"} for key in cases}
+    shuffled = dict(sorted(cases.items()))
+    table, machine = tables_of(shuffled, finished)
+    assert table["key"].to_pylist() == machine["key"].to_pylist() == list(cases)

@@ -13,10 +13,11 @@ import pytest
 from airhilt import run
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import encode_wav
-from airhilt.cosim.observer import Observer, Result
+from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.errors import SpeechError
 from airhilt.messages import SpokenTruth, Transmission, TransmissionClosed
+from airhilt.metrics.result import Result
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.radio.learned_channel import LearnedChannel

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from airhilt.cli.output import counted, echo, tell
+from airhilt.cli.output import echo, tell
 from airhilt.cli.parameters import FOLDER, INTERRUPTED, CommandWithFlags
 from airhilt.cli.work_flags import work_flags, work_given
+from airhilt.host.text import counted
 
 if TYPE_CHECKING:
     from airhilt.sweep.evaluation.engine import Evaluation

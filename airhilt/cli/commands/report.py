@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.output import counted, tell
+from airhilt.cli.output import tell
 from airhilt.cli.parameters import FILE, folder_argument
 from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file
+from airhilt.host.text import counted
 
 if TYPE_CHECKING:
     from airhilt.record.sweep_folder import SweepFolder

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from airhilt.cli.output import counted, echo, echo_json, tell
+from airhilt.cli.output import echo, echo_json, tell
 from airhilt.cli.parameters import allow_path_option, json_array_option
 from airhilt.errors import AirhiltError, ScenarioError
+from airhilt.host.text import counted
 
 if TYPE_CHECKING:
     from airhilt.cosim.dry_flight import DryFlights

@@ -61,7 +61,7 @@ def compare_runs(first: Run, second: Run, names: tuple[str, str]) -> RunComparis
 
     It raises `AirhiltError` if one has no summary, or is damaged.
     """
-    runs = [read_run(each, each.folder.report_path, []) for each in (first, second)]
+    runs = [read_run(each, each.paths.report_path, []) for each in (first, second)]
     one, other = (_metrics(run) for run in runs)
     units = {each.name: each.unit for each in metric_columns()}
     parted_s, events = _parting(*(_events(run) for run in runs))

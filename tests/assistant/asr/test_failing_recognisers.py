@@ -15,9 +15,10 @@ import pytest
 
 import airhilt.assistant.asr.engines.http
 from airhilt import run
-from airhilt.cosim.observer import Observer, Result
+from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.messages import Transcript
+from airhilt.metrics.result import Result
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from services import Answer, Slow, answering, endless, nobody, redirecting, service
