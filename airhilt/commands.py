@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
-from airhilt.quantities import AltitudeFt, Count, Flag, Name, Number, VerticalRateFpm
+from airhilt.quantities import AltitudeFt, Flag, FrequencyKhz, Name, Number, VerticalRateFpm
 
 Side = Literal["left", "right"]
 CircuitLeg = Literal["upwind", "crosswind", "downwind", "base", "final"]
@@ -373,7 +373,7 @@ class ContactCommand(_Command):
 
     action: Literal["contact"]
     unit: Name | None = Field(default=None, description="null: whoever is on the frequency")
-    frequency_khz: Count | None = Field(default=None, description="null: that of the unit")
+    frequency_khz: FrequencyKhz | None = Field(default=None, description="null: that of the unit")
     calls: Flag = Field(default=True, description="false: it only listens there")
 
 

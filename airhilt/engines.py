@@ -222,17 +222,25 @@ class EngineFamily(Family, Generic[T]):
         """
         return self.make(*self.choose(text), configuration)
 
-    def require_known(self, text: str) -> None:
-        """Complain about a text that means no engine and is none of `words`; nothing is loaded.
+    def require_there(self, text: str) -> None:
+        """Complain about a text that means no engine and none of `words`; no model is loaded.
 
         Raises
         ------
         AirhiltError
-            No engine is meant, or more than one.
+            No engine is meant, or more than one; or what the engine needs is not installed, or the
+            file or folder that is its argument is not there.
         """
-        name = text.partition(":")[0]
-        if text not in self.words and name not in self.names():
-            self.choose(text, self.words)
+        if text in (self.default, *self.words):
+            return
+        engine, argument = self.choose(text, self.words)
+        if lacks := engine.lacks():
+            raise self.error(f"{self.word} {text!r}: it is not installed; expected {lacks}")
+        is_path = engine.argument.startswith(("FILE", "FOLDER")) and "NAME" not in engine.argument
+        if argument and is_path and not Path(argument).exists():
+            raise self.error(
+                f"{self.word} {text!r}: no such file or folder; expected {engine.forms()}"
+            )
 
     def configuration_model(self, name: str) -> type[BaseModel]:
         """Return the model of the configuration of an engine.

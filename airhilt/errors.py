@@ -152,10 +152,26 @@ def is_out_of_memory(error: BaseException) -> bool:
 
 def first_problem(error: ValidationError) -> str:
     """Return the first thing that pydantic found wrong, in one line, after its place."""
-    first = error.errors(include_url=False, include_context=False, include_input=False)[0]
-    where = "/".join(str(part) for part in first["loc"])
-    what = first["msg"].removeprefix("Value error, ")
+    where, what = next(_problems(error))
     return f"{where}: {what}" if where else what
+
+
+def all_problems(error: ValidationError) -> str:
+    """Return all that pydantic found wrong, in one line, each after its places."""
+    places: dict[str, list[str]] = {}
+    for where, what in _problems(error):
+        places.setdefault(what, []).append(where)
+    return "; ".join(
+        ": ".join(filter(None, (", ".join(found), what))) for what, found in places.items()
+    )
+
+
+def _problems(error: ValidationError) -> Iterator[tuple[str, str]]:
+    """Yield the place of each problem, and what is wrong there."""
+    for each in error.errors(include_url=False, include_context=False, include_input=False):
+        where = "/".join(str(part) for part in each["loc"])
+        what = each["msg"].removeprefix("Value error, ")
+        yield where, what
 
 
 def shown(value: object) -> str:

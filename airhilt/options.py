@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal
 from pydantic import (
     AfterValidator,
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Field,
     StringConstraints,
@@ -32,7 +33,8 @@ from airhilt.engine_families import (
     WORDINGS,
 )
 from airhilt.engines import RENDERER_HELP, EngineFamily
-from airhilt.errors import AirhiltError, first_problem, shown
+from airhilt.errors import AirhiltError, all_problems, shown
+from airhilt.host.files import is_url
 from airhilt.host.library import nearest
 from airhilt.messages import Modality, RadarKind, Told
 from airhilt.scenario.models import ResponseModelName, Topology
@@ -44,6 +46,13 @@ LONGEST_S = 86_400.0
 """Greatest timeout in s."""
 MODALITIES: tuple[Modality, ...] = ("adsb", "asr", "vision")
 """Modalities by which an assistant observes."""
+
+ASSISTANT = "Assistant"
+PROGRAMS = "Workers and external programs"
+PEOPLE = "People at seats"
+CAMERAS = "Cameras"
+RADIO = "Radio and speech"
+WORLD = "People and equipment in the world"
 
 
 @dataclass(frozen=True)
@@ -67,6 +76,8 @@ class Flag:
         to it.
     help_of_one_run
         Sentence after the help of a single run, about what sweeps have not.
+    group
+        Heading in the help.
     """
 
     name: str
@@ -76,11 +87,12 @@ class Flag:
     needs: tuple[str, ...] = ()
     in_sweeps: bool = True
     help_of_one_run: str = ""
+    group: str = "Options"
 
 
-def _engine_flag(family: EngineFamily[Any], metavar: str = "ENGINE") -> Flag:
+def _engine_flag(family: EngineFamily[Any], group: str, metavar: str = "ENGINE") -> Flag:
     """Return the flag by which the command line chooses an engine of a family."""
-    return Flag(f"--{family.option}", family.help, metavar, needs=family.needs)
+    return Flag(f"--{family.option}", family.help, metavar, needs=family.needs, group=group)
 
 
 def _one_chunk(name: str) -> str:
@@ -93,6 +105,13 @@ def _one_chunk(name: str) -> str:
             {"name": shown(name)},
         )
     return name
+
+
+def _on_this_machine(path: Any) -> Any:
+    """Return a path unchanged; a URL is refused, or a folder such as ``s3:`` would be made."""
+    if is_url(path):
+        raise PydanticCustomError("url", "found {url}, a URL; expected a path", {"url": str(path)})
+    return path
 
 
 def _in_order(text: str) -> str:
@@ -124,6 +143,7 @@ class Options(BaseModel):
     ] = False
     out: Annotated[
         Path | None,
+        BeforeValidator(_on_this_machine),
         Flag("--out", "The run folder.", "DIR", default="a new one under runs/", in_sweeps=False),
     ] = None
     overwrite: Annotated[
@@ -132,7 +152,7 @@ class Options(BaseModel):
     assistant: Annotated[
         str | None,
         replace(
-            _engine_flag(ASSISTANTS, "NAME"),
+            _engine_flag(ASSISTANTS, ASSISTANT, "NAME"),
             default=f"{ASSISTANTS.default}, external if you attach your own decision program",
             help_of_one_run="Or external: a worker or program of yours.",
         ),
@@ -146,6 +166,7 @@ class Options(BaseModel):
             "FILE",
             default="the assistant's own",
             needs=("assistant",),
+            group=ASSISTANT,
         ),
     ] = None
     recipients: Annotated[
@@ -157,6 +178,7 @@ class Options(BaseModel):
             "WHO",
             default="whom the assistant tells",
             needs=("assistant",),
+            group=ASSISTANT,
         ),
     ] = None
     modalities: Annotated[
@@ -168,6 +190,7 @@ class Options(BaseModel):
             "transcripts (asr), pictures and detections (vision). Crews and equipment keep theirs.",
             "NAMES",
             needs=("assistant",),
+            group=ASSISTANT,
         ),
     ] = "+".join(MODALITIES)
     pace: Annotated[
@@ -199,6 +222,7 @@ class Options(BaseModel):
             "ENDPOINT",
             default="none, or a free port with --attach, --seat, --tls or --share-truth",
             in_sweeps=False,
+            group=PROGRAMS,
         ),
     ] = None
     tls: Annotated[
@@ -210,6 +234,7 @@ class Options(BaseModel):
             "DIR",
             default="no keys, on this machine alone",
             in_sweeps=False,
+            group=PROGRAMS,
         ),
     ] = None
     insecure: Annotated[
@@ -219,6 +244,7 @@ class Options(BaseModel):
             "Let programs of other machines connect without keys.",
             needs=("endpoint",),
             in_sweeps=False,
+            group=PROGRAMS,
         ),
     ] = False
     share_truth: Annotated[
@@ -228,6 +254,7 @@ class Options(BaseModel):
             "Let every program that connects read truth/, for viewers and recorders. The results "
             "of a program that decides by it are worth nothing.",
             in_sweeps=False,
+            group=PROGRAMS,
         ),
     ] = False
     seat: Annotated[
@@ -238,6 +265,7 @@ class Options(BaseModel):
             "again. It is taken in the browser, and the run goes on in real time.",
             "NAME",
             in_sweeps=False,
+            group=PEOPLE,
         ),
     ] = ()
     wait_for_seats: Annotated[
@@ -247,6 +275,7 @@ class Options(BaseModel):
             "Let the time stand still at the start until each --seat is taken.",
             needs=("seat",),
             in_sweeps=False,
+            group=PEOPLE,
         ),
     ] = False
     pause: Annotated[
@@ -256,6 +285,7 @@ class Options(BaseModel):
             "Refuse pause and slow motion to people at seats.",
             needs=("seat",),
             in_sweeps=False,
+            group=PEOPLE,
         ),
     ] = True
     voice_recording: Annotated[
@@ -266,6 +296,7 @@ class Options(BaseModel):
             "recognised; the run cannot be replayed.",
             needs=("seat",),
             in_sweeps=False,
+            group=PEOPLE,
         ),
     ] = True
     isa_minutes: Annotated[
@@ -277,6 +308,7 @@ class Options(BaseModel):
             default="not asked",
             needs=("seat",),
             in_sweeps=False,
+            group=PEOPLE,
         ),
     ] = None
     nasa_tlx: Annotated[
@@ -286,6 +318,7 @@ class Options(BaseModel):
             "Ask people at seats for the NASA-TLX ratings when the run has come to its end.",
             needs=("seat",),
             in_sweeps=False,
+            group=PEOPLE,
         ),
     ] = False
     attach: Annotated[
@@ -295,11 +328,18 @@ class Options(BaseModel):
             "Wait for this worker of another process; may be given again.",
             "WORKER",
             in_sweeps=False,
+            group=PROGRAMS,
         ),
     ] = ()
     attach_timeout_s: Annotated[
         Seconds,
-        Flag("--attach-timeout", "How long to wait for it.", "SECONDS", in_sweeps=False),
+        Flag(
+            "--attach-timeout",
+            "How long to wait for it.",
+            "SECONDS",
+            in_sweeps=False,
+            group=PROGRAMS,
+        ),
     ] = 60.0
     step_timeout_s: Annotated[
         Seconds,
@@ -308,6 +348,7 @@ class Options(BaseModel):
             "Wall time after which an attached worker that does not answer is lost.",
             "SECONDS",
             in_sweeps=False,
+            group=PROGRAMS,
         ),
     ] = 5.0
     run_name: Annotated[
@@ -319,15 +360,12 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = None
-    cameras: Annotated[bool, Flag("--no-cameras", "Leave cameras and vision out.")] = True
+    cameras: Annotated[
+        bool, Flag("--no-cameras", "Leave cameras and vision out.", group=CAMERAS)
+    ] = True
     renderer: Annotated[
         str,
-        Flag(
-            "--renderer",
-            RENDERER_HELP,
-            "NAME",
-            needs=("cameras",),
-        ),
+        Flag("--renderer", RENDERER_HELP, "NAME", needs=("cameras",), group=CAMERAS),
     ] = "auto"
     camera_rate: Annotated[
         Literal["full", "adaptive"],
@@ -336,6 +374,7 @@ class Options(BaseModel):
             "full, or adaptive: one picture a second until a body would cover two pixels.",
             "NAME",
             needs=("cameras",),
+            group=CAMERAS,
         ),
     ] = "full"
     share_pictures: Annotated[
@@ -346,9 +385,10 @@ class Options(BaseModel):
             "Sweeps do it by themselves. For latencies that are not measured.",
             needs=("cameras",),
             in_sweeps=False,
+            group=CAMERAS,
         ),
     ] = False
-    detector: Annotated[str, _engine_flag(DETECTORS)] = DETECTORS.default
+    detector: Annotated[str, _engine_flag(DETECTORS, CAMERAS)] = DETECTORS.default
     visibility_m: Annotated[
         Visibility | None,
         Flag(
@@ -357,6 +397,7 @@ class Options(BaseModel):
             "M",
             default="the scenario's",
             needs=("cameras",),
+            group=CAMERAS,
         ),
     ] = None
     video: Annotated[
@@ -366,9 +407,12 @@ class Options(BaseModel):
             "Write what each camera saw as MP4, with boxes and advisories.",
             needs=("cameras",),
             in_sweeps=False,
+            group=CAMERAS,
         ),
     ] = False
-    speech: Annotated[bool, Flag("--no-speech", "Radio calls as text, not as sound.")] = True
+    speech: Annotated[
+        bool, Flag("--no-speech", "Radio calls as text, not as sound.", group=RADIO)
+    ] = True
     snr_db: Annotated[
         Annotated[float, Field(ge=-30.0, le=60.0, allow_inf_nan=False)] | None,
         Flag(
@@ -376,6 +420,7 @@ class Options(BaseModel):
             "Signal-to-noise ratio of the radio.",
             "DB",
             default="the scenario's; without one, no noise",
+            group=RADIO,
         ),
     ] = None
     radio_profile: Annotated[
@@ -386,10 +431,11 @@ class Options(BaseModel):
             "NAME",
             default="the scenario's, or vhf",
             needs=("speech",),
+            group=RADIO,
         ),
     ] = None
-    asr: Annotated[str, _engine_flag(RECOGNISERS)] = RECOGNISERS.default
-    enhancer: Annotated[str, _engine_flag(ENHANCERS)] = ENHANCERS.default
+    asr: Annotated[str, _engine_flag(RECOGNISERS, RADIO)] = RECOGNISERS.default
+    enhancer: Annotated[str, _engine_flag(ENHANCERS, RADIO)] = ENHANCERS.default
     partial_transcripts: Annotated[
         bool,
         Flag(
@@ -397,10 +443,11 @@ class Options(BaseModel):
             "Recognise calls while they last, every 0.5 s, so that a decision may begin before "
             "their end.",
             needs=("speech", "assistant"),
+            group=RADIO,
         ),
     ] = False
-    tts: Annotated[str, _engine_flag(VOICES)] = VOICES.default
-    wording: Annotated[str, _engine_flag(WORDINGS, "NAME")] = WORDINGS.default
+    tts: Annotated[str, _engine_flag(VOICES, RADIO)] = VOICES.default
+    wording: Annotated[str, _engine_flag(WORDINGS, ASSISTANT, "NAME")] = WORDINGS.default
     llm: Annotated[
         str | None,
         Flag(
@@ -410,12 +457,19 @@ class Options(BaseModel):
             "URL",
             default="no language model",
             needs=("assistant",),
+            group=ASSISTANT,
         ),
     ] = None
     llm_model: Annotated[
         str,
         StringConstraints(strip_whitespace=True, min_length=1),
-        Flag("--llm-model", "Name of the language model there.", "NAME", needs=("llm",)),
+        Flag(
+            "--llm-model",
+            "Name of the language model there.",
+            "NAME",
+            needs=("llm",),
+            group=ASSISTANT,
+        ),
     ] = "gpt-oss:20b"
     llm_deadline_s: Annotated[
         Seconds,
@@ -424,6 +478,7 @@ class Options(BaseModel):
             "Wall time after which the rules do without its answer.",
             "SECONDS",
             needs=("llm",),
+            group=ASSISTANT,
         ),
     ] = 3.0
     advisory_channel: Annotated[
@@ -434,6 +489,7 @@ class Options(BaseModel):
             "frequency (a call to them, which all hear, and which may collide).",
             "NAME",
             needs=("assistant",),
+            group=ASSISTANT,
         ),
     ] = "cockpit"
     crews: Annotated[
@@ -445,6 +501,7 @@ class Options(BaseModel):
             "was measured: some late, too slowly, the wrong way, or not at all).",
             "NAME",
             default="the scenario's, or icao",
+            group=WORLD,
         ),
     ] = None
     topology: Annotated[
@@ -455,6 +512,7 @@ class Options(BaseModel):
             "something is left to fuse).",
             "NAME",
             default="the scenario's",
+            group=RADIO,
         ),
     ] = None
     radar: Annotated[
@@ -464,6 +522,7 @@ class Options(BaseModel):
             "Add a surveillance radar: terminal (4.8 s a turn) or en_route (12 s).",
             "KIND",
             default="those of the scenario",
+            group=WORLD,
         ),
     ] = None
     surface_surveillance: Annotated[
@@ -472,10 +531,11 @@ class Options(BaseModel):
             "--surface-surveillance",
             "Add radar and multilateration of the airport's surface; an assistant that reads their "
             "tracks has them anyway.",
+            group=WORLD,
         ),
     ] = False
     cockpit: Annotated[
-        bool, Flag("--cockpit", "Publish what the instruments of all aircraft show.")
+        bool, Flag("--cockpit", "Publish what the instruments of all aircraft show.", group=WORLD)
     ] = False
     equipment: Annotated[
         tuple[str, ...],
@@ -485,6 +545,7 @@ class Options(BaseModel):
             "runway_status_lights. May be given again.",
             "NAME",
             default="that of the scenario",
+            group=WORLD,
         ),
     ] = ()
     report: Annotated[
@@ -526,7 +587,7 @@ def options_of(given: dict[str, Any]) -> Options:
     try:
         return Options(**given)
     except ValidationError as error:
-        raise AirhiltError(f"option {first_problem(error)}") from None
+        raise AirhiltError(f"option {all_problems(error)}") from None
 
 
 def flag_of(field: FieldInfo) -> Flag | None:

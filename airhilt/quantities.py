@@ -17,6 +17,7 @@ from pydantic_core import PydanticCustomError
 LONGEST_RUN_S = 86_400.0
 EARLIEST = datetime.date(1900, 1, 1)
 LATEST = datetime.date(2100, 12, 31)
+LEAST_MHZ, GREATEST_MHZ = 100, 1000
 
 
 def _no_number(value: Any) -> Any:
@@ -39,6 +40,17 @@ def _in_order(period_s: tuple[float, float]) -> tuple[float, float]:
     if begin_s >= end_s:
         raise PydanticCustomError("period", "it ends before it begins; expected [from, to]")
     return period_s
+
+
+def _in_khz(value: Any) -> Any:
+    """Return a frequency in kHz unchanged; a number that can only be meant in MHz is refused."""
+    if isinstance(value, int | float) and GREATEST_MHZ > value > LEAST_MHZ:
+        raise PydanticCustomError(
+            "frequency_khz",
+            "expected kHz, a whole number: {mhz} MHz is {khz}",
+            {"mhz": f"{value:g}", "khz": round(value * 1000)},
+        )
+    return value
 
 
 Flag = Annotated[bool, Strict()]
@@ -67,7 +79,7 @@ DistanceNm = Annotated[Number, Field(ge=0.0, le=500.0)]
 """Distance in NM."""
 SnrDb = Annotated[Number, Field(ge=-30.0, le=60.0)]
 """Signal-to-noise ratio in dB."""
-FrequencyKhz = Annotated[Count, Field(ge=117_975, le=137_000)]
+FrequencyKhz = Annotated[Count, Field(ge=117_975, le=137_000), BeforeValidator(_in_khz)]
 """Name of a channel of the aeronautical VHF band with 25 or 8.33 kHz spacing, in kHz."""
 
 FileName = Annotated[str, Field(min_length=1, max_length=200)]

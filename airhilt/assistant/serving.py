@@ -26,7 +26,7 @@ from airhilt.assistant.vision.detector import Detector, DetectsShots, Shot
 from airhilt.assistant.vision.service_messages import DetectionAnswer, FoundObject, PictureRequest
 from airhilt.audio.wav import decode_speech, encode_wav
 from airhilt.engine_families import DETECTORS, RECOGNISERS, VOICES
-from airhilt.errors import AirhiltError, first_problem
+from airhilt.errors import AirhiltError, all_problems
 from airhilt.host.forms import decoded_form
 from airhilt.host.service_headers import ServiceHeaders
 from airhilt.units import MILLISECOND_NS
@@ -61,7 +61,7 @@ def service_app(kind: ServiceKind, engine: str) -> FastAPI:
         try:
             return await run_in_threadpool(locked, body, request.headers)
         except ValidationError as error:
-            raise HTTPException(422, first_problem(error)) from None
+            raise HTTPException(422, all_problems(error)) from None
         except AirhiltError as error:
             raise HTTPException(422, str(error)) from None
 

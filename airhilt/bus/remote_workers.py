@@ -9,7 +9,7 @@ import zenoh
 from pydantic import ValidationError
 
 from airhilt.bus.session import Bus
-from airhilt.errors import RendererError, WorkerError, first_problem, shown
+from airhilt.errors import RendererError, WorkerError, all_problems, shown
 from airhilt.messages import (
     Grant,
     GrantInput,
@@ -200,7 +200,7 @@ class RemoteWorker:
                 )
 
     def _broken(self, what: str, error: ValueError) -> WorkerError:
-        text = first_problem(error) if isinstance(error, ValidationError) else str(error)
+        text = all_problems(error) if isinstance(error, ValidationError) else str(error)
         return WorkerError(
             f"worker {self.name!r} {what} something else than the schema says: {text}; see "
             "`airhilt schema`"

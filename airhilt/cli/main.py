@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import resource
 import signal
@@ -14,11 +15,14 @@ from airhilt._version import __version__
 from airhilt.cli.output import tell
 from airhilt.cli.parameters import INTERRUPTED
 from airhilt.errors import AirhiltError, is_out_of_memory
+from airhilt.host.library import nearest
 from airhilt.plugins import Family
 
 COMMANDS = Family("command", "airhilt.commands", "airhilt.cli.commands", "COMMAND", click.Command)
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 OUT_OF_MEMORY = 2
+MEANT = {"run": "cosim", "simulate": "cosim"}
+"""Commands by names that people try, which other programs have."""
 
 ADDRESS_SPACE = 3 * 10**9
 """Least address space that a sweep was seen to work in, in bytes.
@@ -46,6 +50,15 @@ class Commands(click.Group):
         except AirhiltError as error:
             return _broken(cmd_name, error)
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command that is asked for; an unknown one is an error with the nearest."""
+        if args and not args[0].startswith("-") and args[0] not in COMMANDS.names():
+            tail = nearest(MEANT.get(args[0], args[0]), COMMANDS.names())
+            raise click.UsageError(f"No such command {args[0]!r}{tail}", ctx)
+        return super().resolve_command(ctx, args)
 
 
 def _broken(name: str, error: AirhiltError) -> click.Command:
@@ -91,6 +104,9 @@ def main() -> NoReturn:
     """Run the command line; a user's mistake ends with one line and exit code 2."""
     signal.signal(signal.SIGTERM, _interrupt)
     signal.signal(signal.SIGINT, _interrupt)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # A terminal may lack UTF-8.
     try:
         code = cli.main(standalone_mode=False)
     except AirhiltError as error:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import click
 
 from airhilt.host.text import LONGEST_LINE, readable
@@ -24,12 +26,14 @@ def tell_page(url: str) -> None:
 
 
 def echo_json(document: str) -> None:
-    """Print a JSON document whole, with escapes for what is no printable character."""
-    click.echo("".join(map(_escaped, document)))
+    """Print a JSON document whole, with escapes for what cannot be printed."""
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    click.echo("".join(_escaped(character, encoding) for character in document))
 
 
-def _escaped(character: str) -> str:
-    if character == "\n" or character.isprintable():
+def _escaped(character: str, encoding: str) -> str:
+    is_in_charset = character.encode(encoding, "ignore") != b""
+    if character == "\n" or (character.isprintable() and is_in_charset):
         return character
     pairs = character.encode("utf-16-be", "surrogatepass").hex()
     return "".join(f"\\u{pairs[at : at + 4]}" for at in range(0, len(pairs), 4))

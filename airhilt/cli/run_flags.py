@@ -13,6 +13,7 @@ from click.core import ParameterSource
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
+from airhilt.cli.parameters import PATH, GroupedOption
 from airhilt.configuration import read_configuration
 from airhilt.options import Flag, Options, flag_of
 
@@ -84,9 +85,18 @@ def option_of(
     field = Options.model_fields[name]
     if field.annotation is bool:
         is_on = bool(field.default)
-        return click.Option(spellings, is_flag=True, flag_value=not is_on, default=is_on, help=text)
+        return GroupedOption(
+            spellings,
+            is_flag=True,
+            flag_value=not is_on,
+            default=is_on,
+            help=text,
+            group=flag.group,
+        )
     is_multiple = get_origin(field.annotation) is tuple
-    return click.Option(spellings, type=kind, multiple=is_multiple, metavar=metavar, help=text)
+    return GroupedOption(
+        spellings, type=kind, multiple=is_multiple, metavar=metavar, help=text, group=flag.group
+    )
 
 
 def _type(annotation: Any) -> Any:
@@ -100,5 +110,5 @@ def _type(annotation: Any) -> Any:
     while hasattr(inner, "__metadata__"):
         inner = get_args(inner)[0]
     if inner is Path:
-        return click.Path(path_type=Path)
+        return PATH
     return inner if inner in (int, float) else str

@@ -5,13 +5,14 @@ from __future__ import annotations
 import ssl
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import wraps
+from functools import partial, wraps
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import click
 from click.core import ParameterSource
 
+from airhilt.cli.parameters import GroupedOption
 from airhilt.errors import StationError
 from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
 
@@ -70,20 +71,21 @@ def station_options(command: F) -> F:
         return command(*arguments, page=page, **given)
 
     decorated: Any = with_page
-    for option in reversed(
+    option = partial(click.option, cls=GroupedOption, group="Page in the browser")
+    for page_option in reversed(
         (
-            click.option("--port", type=click.IntRange(0, 65535), default=DEFAULT_PORT,
+            option("--port", type=click.IntRange(0, 65535), default=DEFAULT_PORT,
                          show_default=True, help="Port of the page."),
-            click.option("--host", default=DEFAULT_HOST, show_default=True, help="Address to "
+            option("--host", default=DEFAULT_HOST, show_default=True, help="Address to "
                          "listen at. Any but loopback needs TLS and a token."),
-            click.option("--certificate", type=FILE, metavar="FILE", help="TLS certificate, PEM."),
-            click.option("--key", type=FILE, metavar="FILE", help="Key of the certificate, PEM."),
-            click.option("--token-file", type=FILE, metavar="FILE", help="File with the token that "
+            option("--certificate", type=FILE, metavar="FILE", help="TLS certificate, PEM."),
+            option("--key", type=FILE, metavar="FILE", help="Key of the certificate, PEM."),
+            option("--token-file", type=FILE, metavar="FILE", help="File with the token that "
                          "a browser must have; it is in the URL that is printed."),
-            click.option("--no-browser", is_flag=True, help="Print the URL, and open no browser."),
+            option("--no-browser", is_flag=True, help="Print the URL, and open no browser."),
         )
     ):  # fmt: skip
-        decorated = option(decorated)
+        decorated = page_option(decorated)
     return cast("F", decorated)
 
 

@@ -3,54 +3,58 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from airhilt.cli.parameters import GroupedOption
+
 if TYPE_CHECKING:
     from airhilt.sweep.work import Work
 
 Command = TypeVar("Command", bound=Callable[..., Any])
+_option = partial(click.option, cls=GroupedOption, group="How the runs are done")
 FLAGS: tuple[Callable[[Any], Any], ...] = (
-    click.option(
+    _option(
         "--scheduler",
         default="local",
         show_default=True,
         metavar="ADDRESS_OR_FILE",
         help="Who does the runs: local, or a Dask scheduler by its address or scheduler file.",
     ),
-    click.option(
+    _option(
         "--workers",
         type=click.IntRange(min=1),
         metavar="N",
         help="Number of local workers.  [default: by cores and memory]",
     ),
-    click.option(
+    _option(
         "--keep",
         default="none",
         show_default=True,
         metavar="WHICH",
         help="Run folders that stay: none, failed, all, or sample:N.",
     ),
-    click.option(
+    _option(
         "--run-timeout",
         "wall_s",
         type=click.FloatRange(min=0.0, min_open=True),
         metavar="SECONDS",
         help="Wall time after which a run is ended.  [default: 3600]",
     ),
-    click.option(
+    _option(
         "--run-memory",
         "memory_mb",
         type=click.FloatRange(min=0.0, min_open=True),
         metavar="MB",
         help="Memory at which a run is ended.  [default: 4000]",
     ),
-    click.option("--retry", is_flag=True, help="Run again what a limit or a crash has ended."),
-    click.option("--dry-run", is_flag=True, help="Only say how many runs, and about how long."),
-    click.option("--quiet", is_flag=True, help="Print nothing but errors and warnings."),
-    click.option("--json", "as_json", is_flag=True, help="Print the outcome as JSON."),
+    _option("--retry", is_flag=True, help="Run again what a limit or a crash has ended."),
+    _option("--dry-run", is_flag=True, help="Only say how many runs, and about how long."),
+    _option("--quiet", is_flag=True, help="Print nothing but errors and warnings."),
+    _option("--json", "as_json", is_flag=True, help="Print the outcome as JSON."),
 )
 
 

@@ -20,7 +20,6 @@ from airhilt.options import Options
 from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import AUTO
 
 if TYPE_CHECKING:
     from airhilt.host.child_process import ChildProcess
@@ -64,10 +63,6 @@ class Vision:
         self._is_watched = participants.does("vision")
         self._sensor: CameraSensor | None = None
         self._recorders: list[KeyPictures | VideoRecorder] = []
-        if options.cameras and options.renderer != AUTO and not recorded.is_replay:
-            from airhilt.sensors.cameras.renderers import require_known
-
-            require_known(options.renderer)
         has_viewers = _has_viewers(setup, participants) or recorded.has_pictures
         if self._unavailable_reason or not has_viewers:
             return

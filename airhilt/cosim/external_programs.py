@@ -11,7 +11,7 @@ from airhilt.bus.closed import Answer, ClosedBus
 from airhilt.bus.intake import Intake
 from airhilt.cosim.context import RunContext
 from airhilt.cosim.participants import Participants
-from airhilt.errors import WorkerError, first_problem
+from airhilt.errors import WorkerError, all_problems
 from airhilt.host.text import readable
 from airhilt.messages import (
     UNREGISTERED,
@@ -208,7 +208,7 @@ class ExternalPrograms:
         try:
             self._accept(key, SeatAction.model_validate_json(data))
         except ValidationError as error:  # Somebody has changed the record.
-            self._refuse(key, first_problem(error))
+            self._refuse(key, all_problems(error))
 
     def take(self, key: str, data: bytes) -> None:
         """Let a message count now.
@@ -307,7 +307,8 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
     except ValidationError as error:
         raise WorkerError(
             f"a program published on {key!r} something that is no {kind.__name__}: "
-            f"{first_problem(error)}; see `airhilt schema`"
+            f"{all_problems(error)}; see `airhilt schema --message "
+            f"{kind.__name__}`"
         ) from None
 
 

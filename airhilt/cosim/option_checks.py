@@ -14,6 +14,7 @@ from airhilt.messages import InputSpec
 from airhilt.options import MODALITIES, Options, flag_of
 from airhilt.scenario import Scenario
 from airhilt.scenario.twin import twin_of
+from airhilt.sensors.cameras import AUTO
 
 KEYS: Mapping[str, tuple[str, ...]] = {
     "adsb": ("adsb",),
@@ -60,7 +61,12 @@ def check_options(options: Options, scenario: Scenario) -> None:
         _require_use_of_enhancer(options, topology)
     for family in FAMILIES:
         if (text := getattr(options, family.option)) is not None:
-            family.require_known(text)
+            family.require_there(text)
+    if options.cameras and options.renderer != AUTO:
+        # Not at the top: a run without cameras starts without the libraries behind them.
+        from airhilt.sensors.cameras.renderers import require_known
+
+        require_known(options.renderer)
     if options.assistant_config is not None:
         assistant, _ = ASSISTANTS.choose(options.assistant or ASSISTANTS.default)
         assistant.configured(options.assistant_config)

@@ -24,6 +24,7 @@ from airhilt.sensors.radio.backends.selection import select_backend
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import LatencySpec, parse_pace
 from airhilt.world.actors import build_actors
+from airhilt.world.checks.radio import units_on_guard
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
@@ -75,7 +76,7 @@ class Setup:
         self.lines = apply_failures(scenario)
         self.seats = seats_of(options.seat, scenario)
         self.sensor_types, problems = load_sensor_types(scenario.sensors)
-        self.notices = [*problems, *_cache_problems()]
+        self.notices = [*problems, *_cache_problems(), *map(str, units_on_guard(scenario))]
         # For the summary alone; a record knows what was said, but not what was planned and was not.
         text = TextRadio(scenario.radio.words_per_minute)
         self.ends_ns = planned_ends_ns(self.lines, self.sound if recorded.sound is None else text)

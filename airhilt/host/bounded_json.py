@@ -21,7 +21,7 @@ def parse(data: bytes) -> Any:
     """
     require_few_values(data)
     try:
-        return json.loads(data.decode())
+        return json.loads(data.decode("utf-8-sig"))
     except RecursionError:
         raise ValueError("nested too deeply") from None
 

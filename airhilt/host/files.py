@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 import hashlib
 import os
+import re
 import secrets
 import stat
 from collections.abc import Iterator
@@ -24,6 +25,13 @@ BLOCK_BYTES = 1 << 20
 """Number of bytes that are read at a time."""
 NOT_INSIDE = (errno.ELOOP, errno.ENOTDIR, errno.EMLINK, errno.ENXIO, errno.EINVAL)
 """Errors of the system for a link that is not followed and for a socket, and of `_regular`."""
+
+URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*://")
+
+
+def is_url(given: object) -> bool:
+    """Return whether what is given as a path is a URL, such as ``s3://bucket/run``."""
+    return URL.match(str(given)) is not None
 
 
 def replace_file(path: Path, data: bytes) -> None:

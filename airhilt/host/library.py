@@ -44,7 +44,7 @@ def find(kind: str, name: str) -> Path:
 def nearest(name: str, known: list[str]) -> str:
     """Return a tail for an error message that helps with a misspelt name."""
     lowered = {candidate.lower(): candidate for candidate in known}
-    close = difflib.get_close_matches(name.lower(), list(lowered), n=1, cutoff=0.5)
+    close = difflib.get_close_matches(name.lower(), list(lowered), n=1)
     if close:
         return f"; did you mean {lowered[close[0]]!r}?"
     if not known:

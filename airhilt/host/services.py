@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 from urllib.parse import urlsplit
 
-from airhilt.errors import AirhiltError, first_problem
+from airhilt.errors import AirhiltError, all_problems
 
 if TYPE_CHECKING:
     import httpx
@@ -181,7 +181,7 @@ class HttpService:
             return model.model_validate_json(data.removeprefix(BYTE_ORDER_MARK))
         except ValidationError as error:
             text = without_key(data.decode("utf-8", "replace"), self._key)
-            what = f"answered {text[:60]!r}: {first_problem(error)}"
+            what = f"answered {text[:60]!r}: {all_problems(error)}"
             raise self.error(what, expected) from None
 
     def error(self, what: str, expected: str) -> AirhiltError:

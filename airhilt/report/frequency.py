@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
@@ -109,23 +109,36 @@ class FrequencyRecording:
         }
 
 
-def write_frequency(
+def write_frequencies(
     run_folder: Path,
     frequency_khz: int | None = None,
     out: Path | None = None,
     notice: Notice = untold,
-) -> tuple[FrequencyRecording, Path, Path]:
-    """Write the sound of a frequency with the timing of the run, and its transcript beside it.
+) -> list[tuple[FrequencyRecording, Path, Path]]:
+    """Write the sound of frequencies with the timing of the run, and transcripts beside it.
 
-    Without a frequency it takes the only one of the run; without a WAV file it writes into the run
-    folder, under the name of the frequency. The notice is told what is damaged; the transcript says
-    it too. The recording, the WAV file and the transcript's file are returned.
+    Without a frequency it takes all of the run; without a WAV file it writes into the run folder,
+    under the name of the frequency. The notice is told what is damaged; the transcript says it too.
+    Each recording is returned with the WAV file and the transcript's file.
 
-    It raises `RunFolderError` if there is no run, nothing was said there, or a sound file is not
-    what was received, and `SpeechError` if the run has no sound.
+    It raises `RunFolderError` if there is no run, nothing was said there, a sound file is not what
+    was received, or one file is given for several frequencies, and `SpeechError` if the run has no
+    sound.
     """
     run = open_run(run_folder, notice)
-    recording = read_frequency(run, frequency_khz)
+    received = _received(run)
+    chosen = _chosen(run.paths, {tx.frequency_khz for _, tx in received}, frequency_khz)
+    if out is not None and len(chosen) > 1:
+        raise RunFolderError(
+            f"{out}: one file for several frequencies; choose one with --frequency: "
+            f"{', '.join(map(str, chosen))} (kHz)"
+        )
+    return [_written(run, _recording(run, received, each), out) for each in chosen]
+
+
+def _written(
+    run: Run, recording: FrequencyRecording, out: Path | None
+) -> tuple[FrequencyRecording, Path, Path]:
     wav = out or run.folder / f"frequency-{recording.frequency_khz}.wav"
     if wav.suffix.lower() != ".wav":
         raise SpeechError(f"{wav}: cannot be written; expected a name that ends with .wav")
@@ -135,7 +148,7 @@ def write_frequency(
 def write_recording(recording: FrequencyRecording, wav: Path) -> Path:
     """Write the sound of a frequency, and its transcript beside it, whose path is returned.
 
-    It raises what `write_frequency` does.
+    It raises what `write_frequencies` does.
     """
     text = wav.with_suffix(".txt")
     write_wav_pieces(wav, recording.sound.pieces())
@@ -146,10 +159,11 @@ def write_recording(recording: FrequencyRecording, wav: Path) -> Path:
     return text
 
 
-def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecording:
-    """Return the sound of a frequency, and what was said on it; else as `write_frequency`."""
+def read_frequency(run: Run, frequency_khz: int) -> FrequencyRecording:
+    """Return the sound of a frequency, and what was said on it; else as `write_frequencies`."""
     received = _received(run)
-    return _recording(run, received, _choose(run.paths, _used(received), frequency_khz))
+    _chosen(run.paths, {tx.frequency_khz for _, tx in received}, frequency_khz)
+    return _recording(run, received, frequency_khz)
 
 
 def read_frequencies(run: Run) -> Iterator[FrequencyRecording]:
@@ -164,6 +178,7 @@ def read_frequencies(run: Run) -> Iterator[FrequencyRecording]:
 
 
 def _received(run: Run) -> list[tuple[CallRecord, Transmission]]:
+    """Return the calls of a run that were received, each as it was."""
     records = CallRecords()
     try:
         for logged in run.log():
@@ -176,12 +191,8 @@ def _received(run: Run) -> list[tuple[CallRecord, Transmission]]:
     return [(call, tx) for call in records if (tx := call.received) is not None]
 
 
-def _used(received: Iterable[tuple[CallRecord, Transmission]]) -> list[int]:
-    return sorted({tx.frequency_khz for _, tx in received})
-
-
 def _recording(
-    run: Run, received: Iterable[tuple[CallRecord, Transmission]], frequency_khz: int
+    run: Run, received: Sequence[tuple[CallRecord, Transmission]], frequency_khz: int
 ) -> FrequencyRecording:
     tuned = [(call, tx) for call, tx in received if tx.frequency_khz == frequency_khz]
     tuned.sort(key=lambda one: (one[1].t_tx_ns, one[1].id))
@@ -190,22 +201,18 @@ def _recording(
     return FrequencyRecording(run.info.run, frequency_khz, calls, sound, run.damage)
 
 
-def _choose(folder: RunFolder, used: Sequence[int], frequency_khz: int | None) -> int:
+def _chosen(folder: RunFolder, used: Set[int], frequency_khz: int | None) -> list[int]:
+    """Return the frequency that is asked for, or all that were used."""
     if not used:
         raise RunFolderError(f"{folder.path}: nobody said anything in this run")
-    names = ", ".join(map(str, used))
     if frequency_khz is None:
-        if len(used) > 1:
-            raise RunFolderError(
-                f"{folder.path}: calls on several frequencies; choose one with --frequency: "
-                f"{names} (kHz)"
-            )
-        return used[0]
+        return sorted(used)
     if frequency_khz not in used:
         raise RunFolderError(
-            f"{folder.path}: nobody said anything on {frequency_khz} kHz; expected one of {names}"
+            f"{folder.path}: nobody said anything on {frequency_khz} kHz; expected one of "
+            f"{', '.join(map(str, sorted(used)))}"
         )
-    return frequency_khz
+    return [frequency_khz]
 
 
 def _call(call: CallRecord, tx: Transmission) -> Json:

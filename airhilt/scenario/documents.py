@@ -38,7 +38,7 @@ def read(path: Path) -> Json:
         The file cannot be read, is too large, or is not UTF-8; or as `parse`.
     """
     try:
-        text = read_file(path, MOST_BYTES).decode()
+        text = read_file(path, MOST_BYTES).decode("utf-8-sig")
     except OSError as error:
         raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:

@@ -19,7 +19,7 @@ from pydantic import (
     model_validator,
 )
 
-from airhilt.errors import AirhiltError, first_problem, shown
+from airhilt.errors import AirhiltError, all_problems, shown
 from airhilt.options import options_of
 from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
@@ -238,7 +238,7 @@ def plan_of(document: Any, origin: str) -> Plan:
     try:
         return Plan.model_validate(document)
     except ValidationError as error:
-        raise AirhiltError(f"{origin}: {first_problem(error)}") from None
+        raise AirhiltError(f"{origin}: {all_problems(error)}") from None
 
 
 def balanced_latin_square(size: int) -> list[list[int]]:

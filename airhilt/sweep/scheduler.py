@@ -58,7 +58,9 @@ def _existing(scheduler: str) -> Client:
     """Return a client of an existing scheduler; TLS as Dask's own configuration has it."""
     try:
         is_address = "://" in scheduler
-        address = scheduler if is_address else json.loads(Path(scheduler).read_text())["address"]
+        address = (
+            scheduler if is_address else json.loads(Path(scheduler).read_text("utf-8"))["address"]
+        )
         return Client(address, timeout=TIMEOUT_S)
     except (OSError, ValueError, RuntimeError, TypeError, KeyError) as error:
         # TypeError: without TLS; KeyError: another file.

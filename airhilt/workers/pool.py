@@ -13,7 +13,7 @@ from typing import Any, Literal, Protocol
 from pydantic import ValidationError
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
-from airhilt.errors import WorkerError, first_problem, shown
+from airhilt.errors import WorkerError, all_problems, shown
 from airhilt.messages import (
     UNREGISTERED,
     WORKER_OUTPUTS,
@@ -284,7 +284,8 @@ def parse_output(
     except ValidationError as error:
         raise WorkerError(
             f"{who} published on {key!r} something that is no {model.__name__}: "
-            f"{first_problem(error)}; see `airhilt schema`"
+            f"{all_problems(error)}; see `airhilt schema --message "
+            f"{model.__name__}`"
         ) from None
     if isinstance(message, Advisory) and message.t_ready_ns > now_ns:
         raise WorkerError(

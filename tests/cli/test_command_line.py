@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import io
 import json
+import re
 import signal
 import socket
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import click
 import pytest
 
+from airhilt.cli.main import cli, main
 from airhilt.errors import AirhiltError
 from airhilt.host import library
+from airhilt.options import ASSISTANT, CAMERAS, PEOPLE, PROGRAMS, RADIO, WORLD, options_of
 from airhilt.record import RunFolder, read_log
 from breadth import mostly_slow
 
@@ -70,6 +76,8 @@ def test_before_a_run_begins_a_person_is_told_that_its_folder_is_not_there_yet(
         ("--pace", "-3", "pace '-3': expected"),
         ("--out", "taken", "holds files that are no run"),
         ("--asr", "bogus", "bogus"),
+        ("--asr", "embedded:nowhere", "no such file or folder; expected embedded, embedded:FOLDER"),
+        ("--renderer", "opengl", "no renderer named 'opengl'"),
     ],
 )
 def test_a_bad_option_is_refused_before_anything_is_begun(
@@ -105,6 +113,64 @@ def test_modalities_left_out_are_off(airhilt_command: Any, encounter_file: Path)
     }  # fmt: skip
 
 
+@pytest.mark.parametrize("command", ["run", "simulate", "cosmi"])
+def test_an_unknown_command_is_told_with_the_one_that_is_meant(
+    airhilt_command: Any, command: str
+) -> None:
+    done = airhilt_command(command, "s02a_headon")
+    assert_is_a_users_mistake(done, f"No such command '{command}'; did you mean 'cosim'?")
+
+
+def test_every_place_for_results_is_on_this_machine() -> None:
+    places = [
+        option
+        for command in commands(cli)
+        for option in command.get_params(click.Context(command))
+        if option.name == "out"
+    ]
+    assert len(places) > 9
+    for option in places:
+        with pytest.raises(AirhiltError, match="--out: found 's3://bucket/x', a URL"):
+            option.type.convert("s3://bucket/x", option, None)
+    with pytest.raises(AirhiltError, match="option out: found s3://bucket/x, a URL"):
+        options_of({"out": "s3://bucket/x"})
+
+
+def commands(group: click.Group) -> Iterator[click.Command]:
+    """Yield the commands of a group and of the groups in it."""
+    context = click.Context(group)
+    for name in group.list_commands(context):
+        command = group.get_command(context, name)
+        assert command is not None
+        if isinstance(command, click.Group):
+            yield from commands(command)
+        yield command
+
+
+def test_the_options_of_a_run_are_explained_in_groups(airhilt_command: Any) -> None:
+    told = airhilt_command("cosim", "--help").stdout
+    groups = re.findall(r"^(\S.*):\n  -", told, flags=re.MULTILINE)
+    assert groups == [
+        "Options", ASSISTANT, PROGRAMS, PEOPLE, CAMERAS, RADIO, WORLD, "Page in the browser",
+    ]  # fmt: skip
+
+
+def test_the_schema_of_one_message_is_printed_by_its_name(airhilt_command: Any) -> None:
+    printed = json.loads(airhilt_command("schema", "--message", "advisory").stdout)
+    assert printed["title"] == "Advisory"
+    assert "t_ready_ns" in printed["required"]
+
+
+def test_a_terminal_without_utf_8_shows_what_it_can(monkeypatch: pytest.MonkeyPatch) -> None:
+    out, err = (io.TextIOWrapper(io.BytesIO(), "latin-1", write_through=True) for _ in range(2))
+    monkeypatch.setattr(sys, "stdout", out)
+    monkeypatch.setattr(sys, "stderr", err)
+    monkeypatch.setattr(sys, "argv", ["airhilt", "validate", "Zürich–Ω.json"])
+    with pytest.raises(SystemExit, match="2"):
+        main()
+    assert b"Z\xfcrich??.json: no such file" in err.buffer.getvalue()
+
+
 def test_list_names_every_scenario_with_a_title(airhilt_command: Any) -> None:
     rows = json.loads(airhilt_command("list", "--json").stdout)
     assert [row["name"] for row in rows] == library.names("scenarios")
@@ -122,6 +188,16 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
     ("arguments", "said"),
     [
         (("cosim", "--scenario", "s02a_haedon"), "did you mean 's02a_headon'?"),
+        (("cosim", "s02a_haedon"), "did you mean 's02a_headon'?"),
+        (("cosim", "s02a_headon", "--scenario", "s02a_headon"), "expected one of them"),
+        (("cosim",), "no scenario given; expected a name of `airhilt list`"),
+        (("cosim", "s02a_headon", "--out", "s3://bucket/run"), "--out: found 's3://bucket/run', a"),
+        (("sweep", "s02a_headon", "--out", "file:///sweep"), "--out: found 'file:///sweep', a URL"),
+        (("listen", "run", "--out", "s3://bucket/a.wav"), "expected a path on this machine"),
+        (
+            ("schema", "--message", "advisry"),
+            "no message named 'advisry'; did you mean",
+        ),
         (("cosim", "--scenario", "none.json"), "no such file"),
         (("cosim", "--scenario", "s02a_headon", "--latency", "replay:x"), "no run here"),
         (("cosim", "--scenario", "s02a_headon", "--seed", "-1"), "expected 0 or more"),

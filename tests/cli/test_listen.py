@@ -19,7 +19,7 @@ from airhilt.errors import RunFolderError, SpeechError
 from airhilt.messages import Message, SpokenTruth, Transcript, Transmission
 from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder, RunInfo
-from airhilt.report.frequency import write_frequency
+from airhilt.report.frequency import write_frequencies
 
 TOWER_KHZ = 118_300
 SECOND = 1_000_000_000
@@ -98,7 +98,7 @@ def at(audio: np.ndarray, second: float) -> float:
 def test_calls_are_heard_at_their_times(recording: Recording, tmp_path: Path) -> None:
     recording.call("1", 0.5, 0.1)
     recording.call("2", 3.0, 0.2)
-    written, wav, _ = write_frequency(recording.close(), out=tmp_path / "tower.wav")
+    [(written, wav, _)] = write_frequencies(recording.close(), out=tmp_path / "tower.wav")
     audio = read_wav(wav)
     assert [at(audio, second) for second in (0.2, 1.0, 2.0, 3.5)] == [0.0, 0.1, 0.0, 0.2]
     assert written.duration_s == pytest.approx(4.0)
@@ -109,7 +109,7 @@ def test_calls_that_block_each_other_are_not_heard_twice(
 ) -> None:
     recording.call("1", 0.0, 0.1, seconds=2.0)
     recording.call("2", 1.0, 0.2, seconds=2.0, blocked_by=("1",))
-    _, wav, text = write_frequency(recording.close(), out=tmp_path / "tower.wav")
+    [(_, wav, text)] = write_frequencies(recording.close(), out=tmp_path / "tower.wav")
     audio = read_wav(wav)
     assert [at(audio, second) for second in (0.5, 1.5, 2.5)] == [0.1, 0.1, 0.2]
     assert "blocked by 1" in text.read_text()
@@ -118,7 +118,7 @@ def test_calls_that_block_each_other_are_not_heard_twice(
 def test_a_call_cuts_off_the_squelch_tail_before_it(recording: Recording, tmp_path: Path) -> None:
     recording.call("1", 0.0, 0.1, tail_s=0.5)
     recording.call("2", 1.2, 0.2)
-    _, wav, _ = write_frequency(recording.close(), out=tmp_path / "tower.wav")
+    [(_, wav, _)] = write_frequencies(recording.close(), out=tmp_path / "tower.wav")
     audio = read_wav(wav)
     assert [at(audio, second) for second in (0.9, 1.1, 1.3)] == [0.1, 0.1, 0.2]
 
@@ -127,7 +127,7 @@ def test_the_transcript_says_who_said_what_and_what_was_heard(
     recording: Recording, tmp_path: Path
 ) -> None:
     recording.call("r-1", 65.0, 0.1, heard="washington tower yellow")
-    _, wav, text = write_frequency(recording.close(), out=tmp_path / "tower.wav")
+    [(_, wav, text)] = write_frequencies(recording.close(), out=tmp_path / "tower.wav")
     assert text == wav.with_suffix(".txt")
     written = text.read_text()
     for part in (
@@ -139,19 +139,21 @@ def test_the_transcript_says_who_said_what_and_what_was_heard(
 
 def test_the_transcript_has_no_control_characters(recording: Recording, tmp_path: Path) -> None:
     recording.call("r-1", 1.0, 0.1, heard="\x1b[2J\u202e" + "x" * 5000, speaker="\x9b\nEVIL")
-    _, _, text = write_frequency(recording.close(), out=tmp_path / "tower.wav")
+    [(_, _, text)] = write_frequencies(recording.close(), out=tmp_path / "tower.wav")
     assert all(line.isprintable() and len(line) <= 1000 for line in text.read_text().split("\n"))
 
 
-def test_the_only_frequency_needs_no_naming_but_one_of_several_does(
+def test_all_frequencies_are_written_unless_one_is_named(
     recording: Recording, tmp_path: Path
 ) -> None:
     recording.call("1", 0.0, 0.1)
     recording.call("2", 0.0, 0.2, frequency_khz=121_700)
     folder = recording.close()
+    written_files = [wav.name for _, wav, _ in write_frequencies(folder)]
+    assert written_files == ["frequency-118300.wav", "frequency-121700.wav"]
     with pytest.raises(RunFolderError, match="--frequency: 118300, 121700"):
-        write_frequency(folder)
-    written, wav, _ = write_frequency(folder, 121_700, tmp_path / "ground.wav")
+        write_frequencies(folder, out=tmp_path / "both.wav")
+    [(written, wav, _)] = write_frequencies(folder, 121_700, tmp_path / "ground.wav")
     assert [call["id"] for call in written.calls] == ["2"]
     assert at(read_wav(wav), 0.5) == 0.2
 
@@ -159,7 +161,7 @@ def test_the_only_frequency_needs_no_naming_but_one_of_several_does(
 def test_a_frequency_that_nobody_used_is_refused_with_those_in_use(recording: Recording) -> None:
     recording.call("1", 0.0, 0.1)
     with pytest.raises(RunFolderError, match="121500 kHz; expected one of 118300"):
-        write_frequency(recording.close(), 121_500)
+        write_frequencies(recording.close(), 121_500)
 
 
 def test_a_sound_file_that_was_exchanged_or_is_gone_is_named(recording: Recording) -> None:
@@ -167,31 +169,31 @@ def test_a_sound_file_that_was_exchanged_or_is_gone_is_named(recording: Recordin
     folder = recording.close()
     write_wav(folder / "audio" / "1.wav", np.full(16_000, 0.3, np.float32))
     with pytest.raises(RunFolderError, match=r"1\.wav: not the sound that the log vouches for"):
-        write_frequency(folder)
+        write_frequencies(folder)
     (folder / "audio" / "1.wav").unlink()
     with pytest.raises(RunFolderError, match=r"1\.wav: cannot be read"):
-        write_frequency(folder)
+        write_frequencies(folder)
 
 
 def test_a_name_that_is_no_wav_is_refused(recording: Recording, tmp_path: Path) -> None:
     recording.call("1", 0.0, 0.1)
     with pytest.raises(SpeechError, match=r"ends with \.wav"):
-        write_frequency(recording.close(), out=tmp_path / "tower.txt")
+        write_frequencies(recording.close(), out=tmp_path / "tower.txt")
 
 
 def test_a_run_in_which_nobody_spoke_says_so(recording: Recording) -> None:
     with pytest.raises(RunFolderError, match="nobody said anything"):
-        write_frequency(recording.close())
+        write_frequencies(recording.close())
 
 
-def test_the_command_prints_one_json_object(
+def test_the_command_prints_a_json_object_for_each_frequency(
     recording: Recording, airhilt_command: Any, tmp_path: Path
 ) -> None:
     recording.call("1", 0.5, 0.1, heard="hello")
     folder = recording.close()
     done = airhilt_command("listen", folder, "--out", "tower.wav", "--json")
     assert done.returncode == 0, done.stderr
-    printed = json.loads(done.stdout)
+    [printed] = json.loads(done.stdout)
     assert printed["frequency_khz"] == TOWER_KHZ
     assert printed["calls"][0]["heard"][0]["text"] == "hello"
     assert (tmp_path / printed["wav"]).is_file()
@@ -220,7 +222,7 @@ def test_a_disk_that_is_full_leaves_no_part_of_a_file_behind(
     resource.setrlimit(resource.RLIMIT_FSIZE, (1_000, unlimited[1]))
     try:
         with pytest.raises(SpeechError, match=r"tower\.wav: cannot be written"):
-            write_frequency(folder, out=wav)
+            write_frequencies(folder, out=wav)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, unlimited)
     assert wav.read_bytes() == b"an earlier recording"
@@ -234,7 +236,7 @@ def test_a_call_late_in_a_day_takes_no_memory_for_the_silence_before_it(
     recording.call("2", 3_600.0, 0.2)
     folder = recording.close()
     tracemalloc.start()
-    written, wav, _ = write_frequency(folder, out=tmp_path / "tower.wav")
+    [(written, wav, _)] = write_frequencies(folder, out=tmp_path / "tower.wav")
     _, peak_bytes = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert written.duration_s == 3_601.0
@@ -250,7 +252,7 @@ def test_sound_of_another_length_than_the_log_says_is_refused(
 ) -> None:
     recording.call("1", 1.0, 0.1, claimed_samples=10**12)
     with pytest.raises(RunFolderError, match=r"1\.wav: 16000 samples; expected 1000000000000"):
-        write_frequency(recording.close(), out=tmp_path / "tower.wav")
+        write_frequencies(recording.close(), out=tmp_path / "tower.wav")
     assert not (tmp_path / "tower.wav").exists()
 
 
@@ -260,4 +262,4 @@ def test_a_call_at_a_time_that_no_run_has_is_refused(
 ) -> None:
     recording.silent_call("1", begin_s)
     with pytest.raises(RunFolderError, match="1 has times that no run has"):
-        write_frequency(recording.close(), out=tmp_path / "tower.wav")
+        write_frequencies(recording.close(), out=tmp_path / "tower.wav")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +32,14 @@ def test_lines_and_json_have_no_control_characters(capsys: pytest.CaptureFixture
     assert is_safe(printed)
     assert "ü" in printed
     assert json.loads(printed) == json.loads(document)
+
+
+def test_json_is_whole_where_a_terminal_has_no_utf_8(monkeypatch: pytest.MonkeyPatch) -> None:
+    out = io.TextIOWrapper(io.BytesIO(), "latin-1", write_through=True)
+    monkeypatch.setattr(sys, "stdout", out)
+    echo_json('{"name": "Zürich–\N{AIRPLANE}\N{SMALL AIRPLANE}"}')
+    printed = out.buffer.getvalue().decode("latin-1")
+    assert json.loads(printed) == {"name": "Zürich–\N{AIRPLANE}\N{SMALL AIRPLANE}"}
 
 
 def test_progress_shows_advisories_and_notices_as_text(capsys: pytest.CaptureFixture[str]) -> None:

@@ -61,6 +61,14 @@ def test_a_dry_flight_names_the_seeds_that_bring_about_no_conflict(
     assert spread["p5_m"] is None
 
 
+def test_a_unit_on_the_emergency_channel_is_warned_of(airhilt_command: Cli, tmp_path: Path) -> None:
+    path = scenario_file(tmp_path)
+    path.write_text(path.read_text().replace("134325", "121500"))
+    done = airhilt_command("validate", path)
+    assert done.returncode == 0
+    assert "'Washington Centre' works on 121500 kHz, which is for emergencies alone" in done.stderr
+
+
 @pytest.mark.parametrize("seeds", ["0", "-1", "many"])
 def test_the_number_of_seeds_is_one_or_more(airhilt_command: Cli, seeds: str) -> None:
     done = airhilt_command("validate", "--dry-fly", seeds, "s02c_nominal")

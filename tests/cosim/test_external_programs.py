@@ -55,7 +55,9 @@ def test_a_voice_without_a_grant_is_refused_and_noticed_once() -> None:
     [
         (
             "advisory/ATC",
-            "a program published on 'advisory/ATC' something that is no Advisory: id:",
+            "a program published on 'advisory/ATC' something that is no Advisory: id, revision, "
+            "recipient, recipients, kind, severity, traffic, message, evidence, t_ready_ns: Field "
+            "required; see `airhilt schema --message Advisory`",
         ),
         ("command/AAL123", "a program published on 'command/AAL123' something that is no ActorCom"),
     ],

@@ -11,7 +11,7 @@ import airhilt
 from airhilt.cli.run_flags import run_flags
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.replay import replay
-from airhilt.cosim.setup import Setup
+from airhilt.cosim.setup import Setup, check_given
 from airhilt.errors import AirhiltError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
@@ -120,8 +120,8 @@ def test_a_run_begins_with_no_engine_that_is_not_there(
     [
         ({"detector": "yolo:FILE", "cameras": False}, "--detector 'yolo:FILE' .* --no-cameras"),
         ({"detector": "yolo:FILE", "assistant": "none"}, "would do nothing with --assistant none"),
-        ({"asr": "whisper:FOLDER", "speech": False}, "would do nothing with --no-speech"),
-        ({"asr": "whisper:FOLDER", "assistant": "none"}, "would do nothing with --assistant none"),
+        ({"asr": "embedded:.", "speech": False}, "would do nothing with --no-speech"),
+        ({"asr": "embedded:.", "assistant": "none"}, "would do nothing with --assistant none"),
         ({"assistant_config": {}, "assistant": "none"}, "^--assistant-config {} would do nothing"),
         ({"video": True, "cameras": False}, "^--video would do nothing with --no-cameras"),
         (
@@ -140,11 +140,11 @@ def test_an_option_that_does_nothing_is_refused_from_python_too(
 @pytest.mark.parametrize(
     "given",
     [
-        {"asr": "whisper:FOLDER", "assistant": "none", "topology": "asr_first"},
+        {"asr": "embedded:.", "assistant": "none", "topology": "asr_first"},
         {"detector": "embedded", "cameras": False},
         {"asr": "http://127.0.0.1:1/asr"},
         {"detector": "none"},
-        {"assistant": "external", "asr": "whisper:FOLDER"},
+        {"assistant": "external", "asr": "embedded:."},
     ],
 )
 def test_an_option_that_does_something_or_nothing_new_is_taken(
@@ -157,3 +157,11 @@ def test_an_option_that_does_something_or_nothing_new_is_taken(
 def test_a_language_model_has_a_name(name: str) -> None:
     with pytest.raises(ValueError, match="llm_model"):
         Options(assistant="llm", llm="http://127.0.0.1:1/v1", llm_model=name)
+
+
+def test_an_engine_that_is_not_installed_is_refused_with_how_to_get_it(
+    encounter: Scenario, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("shutil.which", lambda _: None)
+    with pytest.raises(AirhiltError, match="'flite': it is not installed; expected apt install"):
+        check_given(encounter, Options(tts="flite"))

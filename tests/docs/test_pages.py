@@ -8,12 +8,12 @@ from pathlib import Path
 
 import click
 import pytest
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, ValidationError
 
 from airhilt import __version__
 from airhilt.cli.main import cli
 from airhilt.commands import Command
-from airhilt.messages import json_schemas
+from airhilt.messages import Advisory, json_schemas
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Camera, Perturbation, RadioLine
 from airhilt.world.loading import load_text
@@ -39,6 +39,15 @@ def test_the_examples_of_the_scenario_pages_are_valid() -> None:
     Perturbation.model_validate_json(perturbation)
     TypeAdapter(Command).validate_json(command)
     assert len(TypeAdapter(tuple[Camera, ...]).validate_json(cameras)) == 2
+
+
+def test_the_advisory_of_the_page_of_workers_is_valid_and_the_smallest() -> None:
+    (block,) = json_blocks("workers.md")
+    advisory = json.loads(block)
+    Advisory.model_validate(advisory)
+    for field in advisory:
+        with pytest.raises(ValidationError, match="Field required"):
+            Advisory.model_validate({name: advisory[name] for name in advisory if name != field})
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from airhilt.configuration import read_configuration
 from airhilt.errors import ScenarioError
 from airhilt.host import library
 from airhilt.world.loading import load, load_text
@@ -112,6 +113,25 @@ def test_an_unknown_aircraft_is_told_with_the_nearest() -> None:
     assert "actors/0/aircraft: " in message
     assert "'B748'" in message
     assert "did you mean 'B747'?" in message
+
+
+def test_an_aircraft_that_no_other_resembles_is_told_with_what_there_is() -> None:
+    message = complaint(changed(HEAD_ON, "actors/0/aircraft", "A320"))
+    assert "no aircraft named 'A320'; known: 737, B747, c172p, c310" in message
+
+
+def test_a_file_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
+    path = tmp_path / "marked.json"
+    path.write_text(json.dumps(HEAD_ON), encoding="utf-8-sig")
+    assert load(path) == load_text(json.dumps(HEAD_ON), "head-on")
+    assert read_configuration(path) == HEAD_ON
+
+
+def test_what_is_written_as_people_say_it_is_explained() -> None:
+    frequency = complaint(changed(HEAD_ON, "radio/lines/0/frequency_khz", 120.5))
+    assert "found 120.5: expected kHz, a whole number: 120.5 MHz is 120500" in frequency
+    registration = complaint(changed(HEAD_ON, "actors/0/callsign", "G-ABCD"))
+    assert 'found "G-ABCD": expected it without a hyphen, GABCD' in registration
 
 
 @pytest.mark.parametrize("altitude_ft", [-500, 0, 1_000])

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.output import echo_json, tell
-from airhilt.cli.parameters import CommandWithFlags, allow_path_option
+from airhilt.cli.parameters import CommandWithFlags, allow_path_option, one_scenario
 from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
@@ -26,10 +26,10 @@ def _flags() -> list[click.Parameter]:
 @click.command(
     cls=CommandWithFlags,
     flags=_flags,
-    flags_at=1,
+    flags_at=2,
     epilog="""\b
 Examples:
-  airhilt cosim --scenario s02a_headon
+  airhilt cosim s02a_headon
   airhilt cosim --scenario my.json --seed 7 --latency lognormal --out runs/mine
   airhilt cosim --scenario s02a_headon --assistant none --json
   airhilt cosim --scenario s02a_headon_tcas --crews observed --seed 3
@@ -38,11 +38,9 @@ Examples:
   airhilt cosim --scenario s02a_headon --endpoint tcp/127.0.0.1:7447 --attach decision
 """,
 )
+@click.argument("named", metavar="[NAME_OR_FILE]", required=False)
 @click.option(
-    "--scenario",
-    required=True,
-    metavar="NAME_OR_FILE",
-    help="A scenario of `airhilt list`, or a JSON file.",
+    "--scenario", metavar="NAME_OR_FILE", help="A scenario of `airhilt list`, or a JSON file."
 )
 @allow_path_option
 @click.option(
@@ -57,7 +55,8 @@ Examples:
 def cosim(
     context: click.Context,
     /,
-    scenario: str,
+    named: str | None,
+    scenario: str | None,
     allowed: tuple[Path, ...],
     as_json: bool,
     view: bool,
@@ -77,7 +76,8 @@ def cosim(
     has_page = view or bool(options.seat)
     if not has_page:
         refuse_page_options("--view or --seat")
-    loaded = load(scenario, allowed)
+    name = one_scenario(named, scenario)
+    loaded = load(name, allowed)
     if has_page:
         options = _for_page(loaded, options)
         page.address()  # The process of the page would complain too late.
@@ -87,7 +87,7 @@ def cosim(
             seats = seats_of(options.seat, loaded)
             stack.enter_context(live_page(options.endpoint, options.tls, seats, page.arguments()))
         tell("starting; the run folder appears in a moment")
-        with ProgressLine(scenario) as progress:
+        with ProgressLine(name) as progress:
             result = run(loaded, options, progress)
         if as_json:
             echo_json(result.summary.model_dump_json(indent=2))

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 import click
 
 from airhilt.cli.output import tell
+from airhilt.errors import AirhiltError
+from airhilt.host.library import nearest
 
 
 @click.command(
     epilog="""\b
 Examples:
   airhilt schema > messages.json
+  airhilt schema --message advisory
   airhilt schema --scenario > scenario.schema.json
   airhilt schema --services > services.openapi.json
   airhilt schema --assistant reference
@@ -21,6 +25,7 @@ Examples:
   airhilt schema --experiment > plan.schema.json
 """
 )
+@click.option("--message", metavar="NAME", help="The schema of one message, such as advisory.")
 @click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
 @click.option("--services", is_flag=True, help="The OpenAPI document of services instead.")
 @click.option(
@@ -29,13 +34,19 @@ Examples:
 @click.option("--sweep", is_flag=True, help="The schema of sweep files instead.")
 @click.option("--experiment", is_flag=True, help="The schema of plans of experiments instead.")
 def schema(
-    scenario: bool, services: bool, assistant: str | None, sweep: bool, experiment: bool
+    message: str | None,
+    scenario: bool,
+    services: bool,
+    assistant: str | None,
+    sweep: bool,
+    experiment: bool,
 ) -> None:
     """Print the JSON Schemas of all messages on the bus."""
-    given = (scenario, services, assistant is not None, sweep, experiment)
+    given = (message is not None, scenario, services, assistant is not None, sweep, experiment)
     if sum(given) > 1:
         raise click.UsageError(
-            "--scenario, --services, --assistant, --sweep, --experiment: expected one of them"
+            "--message, --scenario, --services, --assistant, --sweep, --experiment: expected one "
+            "of them"
         )
     document: dict[str, Any]
     if services:
@@ -66,7 +77,20 @@ def schema(
         for problem in problems:
             tell(str(problem))
         document = json_schemas(sensor_messages(types))
+        if message is not None:
+            document = _of_message(document, message)
     click.echo(json.dumps(document, indent=2))
+
+
+def _of_message(documents: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """Return the schema of a message by its name, in small or capital letters."""
+    by_name: dict[str, dict[str, Any]] = {
+        document["title"]: document for document in documents.values()
+    }
+    for title, document in by_name.items():
+        if title.lower() == name.lower():
+            return document
+    raise AirhiltError(f"no message named {name!r}{nearest(name, list(by_name))}")
 
 
 COMMAND = schema

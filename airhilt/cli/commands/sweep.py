@@ -37,7 +37,7 @@ class SweepCommand(CommandWithFlags):
 @click.command(
     cls=SweepCommand,
     flags=_flags,
-    flags_at=2,
+    flags_at=3,
     epilog="""\b
 Values are lists (0,5,10), ranges with their end (0:20:5), ranges in even ratios with a count
 (log:1:100:5), or intervals to draw samples from (0:20, with --sample).
@@ -50,6 +50,7 @@ Examples:
   airhilt sweep --file sweep.json --scheduler tcp://head:8786
 """,
 )
+@click.argument("named", metavar="[NAME_OR_FILE]...", nargs=-1)
 @click.option(
     "--scenario",
     "scenarios",
@@ -105,7 +106,12 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     from airhilt.sweep.estimate import estimate
 
     specification = specification_given(
-        context, given["file"], given["scenarios"], given["seeds"], given["set_"], given["sample"]
+        context,
+        given["file"],
+        (*given["named"], *given["scenarios"]),
+        given["seeds"],
+        given["set_"],
+        given["sample"],
     )
     work = work_given(given, given["out"] or _default_folder())
     work = replace(work, allowed=given["allowed"])

@@ -72,6 +72,7 @@ def validate(
 
 def _checked(file: str, allowed: tuple[Path, ...]) -> Scenario:
     from airhilt.cosim.setup import require_runnable
+    from airhilt.world.checks.radio import units_on_guard
     from airhilt.world.checks.texts import doubtful_texts
     from airhilt.world.loading import load
 
@@ -82,6 +83,8 @@ def _checked(file: str, allowed: tuple[Path, ...]) -> Scenario:
         tail = [f"... and {more} more"] if more > 0 else []
         raise AirhiltError("\n".join([*shown, *tail])) from None
     require_runnable(scenario)
+    for unit in units_on_guard(scenario):
+        tell(f"warning: {file}: {unit}")
     for doubt in doubtful_texts(scenario):
         tell(f"warning: {file}: {doubt}; a difference that is meant is declared in failures")
     return scenario

@@ -31,6 +31,20 @@ CHANNELS_KHZ = tuple(name for name in range(118_000, 136_991, 5) if name % 25 < 
 """Names of the channels of the aeronautical VHF band, in kHz: in each 25 kHz one of that spacing,
 and three of 8.33 kHz, named 5, 10 and 15 above it (ICAO Annex 10 volume V, table 4-1 bis)."""
 
+GUARD_KHZ = 121_500
+"""Emergency channel, for emergencies alone (ICAO Annex 10 volume V, 4.1.3.1.1)."""
+
+
+def units_on_guard(scenario: Scenario) -> Iterator[Problem]:
+    """Yield units that work on the emergency channel, which is valid and hardly meant."""
+    for unit, frequencies_khz in controlling_units(scenario).items():
+        if GUARD_KHZ in frequencies_khz:
+            yield Problem(
+                "radio",
+                f"{unit!r} works on {GUARD_KHZ} kHz, which is for emergencies alone; expected a "
+                "frequency of its own",
+            )
+
 
 def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
     """Yield lines that cannot be said as they are, and radios of nobody in the scenario."""

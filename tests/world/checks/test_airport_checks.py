@@ -224,7 +224,7 @@ def test_names_in_instructions_lead_to_something(subtests: pytest.Subtests) -> N
         ),
         (
             ends(type="in_phase", actor="OPS1", phases=["taxi"]),
-            "end_when/0/phases/0", "no phase 'taxi'; did you mean 'standing'?",
+            "end_when/0/phases/0", "no phase 'taxi'; known: standing, driving",
         ),
     ]  # fmt: skip
     for change, where, what in table:

@@ -133,7 +133,7 @@ class Model:
                 f"recogniser {Ctc.name}: {where} lacks {', '.join(missing)}; expected "
                 f"{', '.join(FILES)}, as tools/asr/train_asr.py writes them"
             )
-        self.pieces = Pieces((where / "pieces.txt").read_text(errors="replace").split())
+        self.pieces = Pieces((where / "pieces.txt").read_text("utf-8", "replace").split())
         try:
             self.card = card = Card.model_validate_json((where / "card.json").read_bytes())
         except ValidationError as error:
