@@ -53,7 +53,7 @@ def test_the_sound_of_each_frequency_is_a_file_with_the_timing_of_the_run(tmp_pa
     run = airhilt.open_run(busy_radio(tmp_path / "run"))
     wav, text = export(run, "wav", tmp_path / "sound")
     assert (wav.name, text.name) == (f"frequency-{TOWER_KHZ}.wav", f"frequency-{TOWER_KHZ}.txt")
-    recording = read_frequency(run)
+    recording = read_frequency(run, TOWER_KHZ)
     expected = np.concatenate([*recording.sound.pieces()])
     assert np.allclose(read_wav(wav), expected, atol=1e-4)
     assert text.read_text() == recording.text()
