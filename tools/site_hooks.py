@@ -1,6 +1,6 @@
 """Hooks of MkDocs: pages that are made from the code, and links to files outside docs/.
 
-    pip install -e '.[docs]' && mkdocs serve
+pip install -e '.[docs]' && mkdocs serve
 """
 
 from __future__ import annotations

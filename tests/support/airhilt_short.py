@@ -44,7 +44,8 @@ def use(scenarios: Path) -> None:
 def use_for(arguments: list[str], folder: Path) -> None:
     """Let a command that runs scenarios find those that `shorten` has written to a folder."""
     if arguments[:1] in (["cosim"], ["sweep"], ["evaluate"]):
-        use(folder / ("seen" if "--video" in arguments else "unseen"))
+        with_cameras = {"--video", "--detector"} & set(arguments)
+        use(folder / ("seen" if with_cameras else "unseen"))
 
 
 if __name__ == "__main__":
