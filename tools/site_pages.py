@@ -19,6 +19,8 @@ from airhilt.messages import json_schemas
 
 Schema = dict[str, Any]
 CODE = re.compile(r"``(.+?)``")
+KEY = re.compile(r"^``[^`]+``: ")
+"""Key with which the docstring of a message begins."""
 
 
 def commands(parent: click.Context | None = None) -> Iterator[click.Context]:
@@ -69,6 +71,7 @@ def messages() -> str:
     for key, schema in json_schemas().items():
         parts |= schema.get("$defs", {})
         sections.append(f"## {schema['title']} {{ #{_anchor(key)} }}\n\n`{key}`")
+        schema["description"] = KEY.sub("", schema["description"])
         sections.append(_fields(schema))
     for name, schema in sorted(parts.items()):
         sections.append(f"## {name} {{ #{name.lower()} }}\n\nPart of messages.")

@@ -59,7 +59,7 @@ def examples(page: Path) -> Iterator[Example]:
 
 def commands(example: Example) -> list[str]:
     """Return the commands of a block that can be run here, without the remarks beside them."""
-    text = re.sub(r"\\\n\s*", "", example.text)
+    text = re.sub(r"\\\n\s*", "", "" if example.language else example.text)
     text = re.sub(r"(?m)(?<=\S)( {3,}| +#).*$", "", text)
     text = re.sub(r"(?ms)^for .*?^done", in_one_line, text)
     return [line for line in text.split("\n") if line.startswith(RUN_COMMANDS)]
@@ -81,9 +81,12 @@ CLUSTERS = ("from dask_jobqueue", "from dask_kubernetes")
 PYTHON = [
     one
     for one in EXAMPLES
-    if one.language == "python" and not any(package in one.text for package in CLUSTERS)
+    if one.language == "python"
+    and not any(package in one.text for package in CLUSTERS)
+    and one.text not in dict(SAVED.findall(one.page.read_text(encoding="utf-8"))).values()
 ]
-"""Examples in Python; the recipe for SLURM has a test of its own, marked ``slurm``."""
+"""Examples in Python; the recipe for SLURM has a test of its own, marked ``slurm``, and files that
+a reader writes are run with the commands of their page."""
 CHEAP_PYTHON = [one for one in PYTHON if not re.search(r"read_sweep\(|snapshot\(", one.text)]
 """Examples that neither read tables nor draw a picture."""
 
@@ -142,9 +145,10 @@ def as_run(command: str, endpoint: str, work: Path) -> str:
     if command.startswith("airhilt sweep"):
         command = command.replace("'s01a_*'", "s02a_headon").replace("0:20:5", "5")
         command = command.replace("0,10,20", "5").replace("0,5,10", "5")
-        command = command.replace("--visibility 1000,2000,5000 ", "--visibility 1000 ")
-        command = command.replace("--camera-rate adaptive ", "").replace(" --no-cameras", "")
-        command = re.sub(r"--seeds \d+", "--seeds 1 --no-cameras --no-speech", command)
+        command = command.replace("1000,2000,5000", "1000").replace(" --no-cameras", "")
+        fewer = "" if "--visibility" in command else " --no-cameras"
+        fewer += "" if "--asr" in command else " --no-speech"
+        command = re.sub(r"--seeds \d+", f"--seeds 1{fewer}", command)
     if command.startswith("airhilt evaluate"):
         command += " --dry-run"
     command = re.sub(r"runs/(\w+-0-)\.\.\.", lambda run: newest_run(work, run[1]), command)

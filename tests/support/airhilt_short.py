@@ -30,6 +30,8 @@ def shorten(folder: Path) -> None:
         ):
             short = shortened(document, min(document["duration_s"], longest_s))
             short["cameras"] = cameras
+            if kind == "seen":  # times that are drawn would be before the start
+                short["perturbations"] = []
             path = folder / kind / f"{name}.json"
             path.parent.mkdir(exist_ok=True)
             path.write_text(json.dumps(short), encoding="utf-8")
