@@ -157,7 +157,8 @@ def _taxi(of: _Slots) -> str:
     via = ", ".join(spell(each, of.style) for each in of.told.via)
     if not to and not via:
         return "continue"
-    return join("taxi", f"to {to}" if to else "", f"via {via}" if via else "")
+    at = of.at if of.runway else ""
+    return join("taxi", f"to {to}" if to else "", at, f"via {via}" if via else "")
 
 
 def _vacate(of: _Slots) -> str:
