@@ -136,6 +136,16 @@ class RunwayOperations:
 
         return take
 
+    def plan_without_clearance(self) -> Act:
+        """Return what goes on with the approach without the clearance to land."""
+        if self._cleared is None:
+            raise Unable("unable, not cleared to land")
+
+        def withdraw() -> None:
+            self._cleared = None
+
+        return withdraw
+
     def plan_leaving(self, command: LandCommand) -> Act:
         """Return what takes a landing clearance on the way to its runway."""
         take = self.plan_clearance(command)
