@@ -36,6 +36,7 @@ class Stations:
 
     def __init__(self, actors: Mapping[str, Actor], site: ScenarioSite, scenario: Scenario) -> None:
         self._actors = actors
+        self._scenario_site = site
         self._ground_m = site.ground_m
         self.variation_deg = site.variation_deg or 0.0
         """Magnetic variation of the place, in degrees, positive east."""
@@ -142,7 +143,7 @@ class Stations:
 
     def report_of(self, callsign: str, asked: str, style: Style) -> str | None:
         """Return what an actor says when it is asked for something; None if it does not know."""
-        field = Field(self._site_place, self.variation_deg)
+        field = Field(self._scenario_site, self._site_place, self.variation_deg)
         return report_of(self._actors[callsign], asked, field, style)
 
     def altitudes_ft(self, callsign: str) -> tuple[float | None, float | None]:
