@@ -24,6 +24,7 @@ from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Act, Unable, do_nothing
 from airhilt.world.actors.circuit import (
+    SETTLE_S,
     STABLE_CIRCLING_FT,
     STABLE_FT,
     Circuit,
@@ -67,6 +68,8 @@ it takes about 240 degrees, a loop more than 360; assumed."""
 GREATEST_SIDE_STEP_RAD = 90.0 * DEGREE
 """Greatest angle between two runways from one of which a crew side-steps to the other; assumed. The
 manuals have parallel runways alone (FAA Aeronautical Information Manual, 5-4-19)."""
+LEVEL_M = 200.0 * FOOT
+"""Distance in m from a level within which it is flown (AIM 4-5-2)."""
 NEAR_M = 20.0 * NAUTICAL_MILE
 """Distance from the runway within which the way to it is planned, in m; before, the aircraft flies
 straight to it."""
@@ -207,12 +210,30 @@ class Approaches:
             raise Unable(f"unable, landing on runway {self._runways.bound_runway}")
         if self._phase == "glide" and self._runways.bound_runway == end.ident:
             return do_nothing
+        if kind == "straight_in" and level_ft is not None and self._intercepts(end, level_ft):
+            return partial(self._runways.intercept, end.ident)
         if kind == "circling" and self._phase in APPROACHING:
             lowest_ft = self._circling_ft()
             if self._height_ft < lowest_ft:
                 raise Unable(f"unable, too low to turn to runway {end.ident}")
             return self._plan_way(end, STABLE_CIRCLING_FT, SHARPEST_RAD)
         return self._plan_way(end, STABLE_FT, is_long=kind == "straight_in", level_ft=level_ft)
+
+    def _intercepts(self, end: RunwayEnd, level_ft: float) -> bool:
+        """Return whether the track leads to the final course where the glide path is above a level.
+
+        The aircraft is at the level, or comes down to it on the way there.
+        """
+        if self._phase in APPROACHING or not self._leads_to(end):
+            return False
+        final, slope = self._final(end), math.tan(end.glide_path_rad)
+        along_m, angle = final.before_m(self._here), final.angle_rad(self._aircraft.state.track_rad)
+        if abs(final.right_m(self._here)) > CAPTURE_DISTANCE_M:
+            along_m -= abs(final.right_m(self._here)) / math.tan(abs(angle))
+        flown_m = final.before_m(self._here) - along_m
+        level_m = level_ft * FOOT
+        is_low = self._aircraft.state.altitude_m - level_m < slope * flown_m + LEVEL_M
+        return is_low and level_m - end.elevation_m < slope * min(along_m, LONGEST_FINAL_M)
 
     # --- the way ------------------------------------------------------------------------------
 
@@ -227,20 +248,17 @@ class Approaches:
     ) -> Act:
         """Return what flies the shortest way to the final approach of a runway.
 
-        It is joined, as far as there is room, before the glide path is below a level in ft.
+        It is joined where the glide path is above a level in ft.
         """
         self._require_height()
         final, state, kind = self._final(end), self._aircraft.state, self._aircraft.kind
         if distance_m(self._here, end.threshold) > NEAR_M:
             return partial(self._go_there, final, level_ft)
         least_m = self._gate_m(final, stable_ft)
-        if is_long or level_ft is not None:
+        if is_long:
             ahead_m = final.before_m(self._here) - radius_now_m(kind, state)
-            joined_m = LONG_FINAL_M if is_long else 0.0
-            if level_ft is not None:
-                above_m = level_ft * FOOT - end.elevation_m
-                joined_m = max(joined_m, above_m / math.tan(end.glide_path_rad))
-            least_m = max(least_m, min(joined_m, ahead_m, LONGEST_FINAL_M))
+            least_m = max(least_m, min(LONG_FINAL_M, ahead_m))
+        least_m = max(least_m, self._joined_m(end, level_ft))
         for longer_m in _longer_m(LONGEST_FINAL_M - least_m):
             gate = final.pose(least_m + longer_m)
             way = joined([self._pose, gate], radius_now_m(kind, state), last_radius_m(kind, state))
@@ -252,6 +270,15 @@ class Approaches:
         if sharpest_rad < math.inf:
             raise Unable(f"unable, too close to turn to runway {end.ident}")
         raise Unable(f"unable, too high for runway {end.ident}")
+
+    def _joined_m(self, end: RunwayEnd, level_ft: float | None) -> float:
+        """Return how far before the threshold a final approach is joined at a level."""
+        if level_ft is None:
+            return 0.0
+        glide_m = (level_ft * FOOT - end.elevation_m) / math.tan(end.glide_path_rad)
+        if glide_m > LONGEST_FINAL_M:
+            raise Unable(f"unable {level_ft:g} ft until final on runway {end.ident}")
+        return glide_m + SETTLE_S * self._aircraft.kind.speeds.minimum_clean_kt * KNOT
 
     def _descends_well(self, end: RunwayEnd, curve: Sequence[Piece]) -> bool:
         height_m = self._aircraft.state.altitude_m - end.elevation_m
@@ -282,7 +309,9 @@ class Approaches:
         flown = None if circuit is None else JoinedCircuit(circuit, curve, poses or {})
 
         def fly(runway: RunwayEnd, exit_path: Sequence[Place]) -> None:
-            self._aircraft.procedures.approach(runway, curve, level_m, exit_path)
+            self._aircraft.procedures.approach(
+                runway, curve, level_m, exit_path, keeps_level=level_ft is not None
+            )
             self._joined = flown
 
         return partial(self._runways.begin_approach, end.ident, fly)
@@ -326,6 +355,8 @@ class Approaches:
         if command.leg == "base" and circuit.is_on("downwind", self._here, state.track_rad):
             circuit = Circuit(final, kind, circuit.side, state, STABLE_CIRCLING_FT)
         nearest = circuit.poses(command.leg, self._here, state.track_rad)
+        gate = final.before_m(self._site.airport.local_frame.to_place(*nearest["final"][:2]))
+        nearest = _farther(nearest, max(self._joined_m(end, command.level_ft) - gate, 0.0))
         # A straight-in approach goes straight in, or not at all.
         for longer_m in _longer_m(0.0 if command.leg == "final" else LONGEST_FINAL_M):
             poses = _farther(nearest, longer_m)
