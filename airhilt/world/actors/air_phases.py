@@ -5,6 +5,7 @@ from __future__ import annotations
 from airhilt.commands import (
     AltitudeCommand,
     ApproachCommand,
+    CancelLandingCommand,
     Command,
     CrossFixCommand,
     DirectCommand,
@@ -29,6 +30,7 @@ from airhilt.commands import (
     VerticalRateCommand,
 )
 from airhilt.units import FOOT
+from airhilt.world.actors.runway_operations import APPROACHING
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent
 
@@ -40,6 +42,7 @@ PATTERNS = (OrbitCommand, HoldAtCommand)
 EMERGENCIES = (DriftDownCommand, EmergencyDescentCommand)
 TO_A_RUNWAY = (
     LandCommand,
+    CancelLandingCommand,
     ApproachCommand,
     SideStepCommand,
     JoinCommand,
@@ -74,8 +77,10 @@ def refusal_in_phase(aircraft: Aircraft, command: Command) -> str | None:
         command.altitude_ft * FOOT >= state.altitude_m
     ):
         return f"unable, below {command.altitude_ft:g} ft already"
+    if phase in APPROACHING and isinstance(command, VERTICAL):
+        return "unable, on the approach"
     is_low = phase in ("approach", "glide") and state.height_agl_m < LAST_TURN_M
-    if is_low and isinstance(command, (*LATERAL, *VERTICAL)):
+    if is_low and isinstance(command, LATERAL):
         return "unable, on short final"
     if phase == EmergencyDescent.name:
         return _in_emergency_descent(aircraft, command)

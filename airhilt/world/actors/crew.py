@@ -17,6 +17,7 @@ from airhilt.commands import (
     DriftDownCommand,
     EmergencyDescentCommand,
     FollowCommand,
+    GoAroundCommand,
     HoldAtCommand,
     HoldPositionCommand,
     HoldShortCommand,
@@ -57,7 +58,7 @@ from airhilt.world.actors.actor import (
     refusal_by,
     saying_unable,
 )
-from airhilt.world.actors.air_phases import refusal_in_phase
+from airhilt.world.actors.air_phases import EMERGENCIES, TO_A_RUNWAY, refusal_in_phase
 from airhilt.world.actors.approaches import Approaches
 from airhilt.world.actors.behind import BehindTraffic
 from airhilt.world.actors.departure import Departure
@@ -87,6 +88,8 @@ ENDS_DEPARTURE = (
 """Commands after which an aircraft lines up or takes off only when it is told again."""
 ON_TO_A_RUNWAY = (TakeOffCommand, LineUpCommand, ContinueCommand, CrossCommand)
 """Commands by which an aircraft goes on to a runway, or takes off from it."""
+ENDS_CROSSING = (AltitudeCommand, *EMERGENCIES, *TO_A_RUNWAY, GoAroundCommand)
+"""Commands after which an aircraft goes on to no other level beyond a fix."""
 FLOWN = (
     AltitudeCommand,
     TrackCommand,
@@ -213,13 +216,17 @@ class Crew:
         with saying_unable():
             if (command := self._behind.due()) is not None:
                 self._carry_out(command)
+            self._en_route.attend()
             self._ground.attend()
             self._departure.attend()
             self.runway_operations.attend()
 
     def _carry_out(self, command: Command) -> None:
         with saying_unable():
-            self._plan(command)()
+            act = self._plan(command)
+            if isinstance(command, ENDS_CROSSING):
+                self._en_route.forget()
+            act()
 
     def _plan(self, command: Command) -> Act:
         """Return what carries out a command.

@@ -136,6 +136,21 @@ class RunwayOperations:
 
         return take
 
+    def intercept(self, runway: str) -> None:
+        """Fly on as before, and join the final approach of a runway where the way leads to it."""
+        self.bind(runway)
+        self._next = self._land_once_on_final
+
+    def plan_without_clearance(self) -> Act:
+        """Return what goes on with the approach without the clearance to land."""
+        if self._cleared is None:
+            raise Unable("unable, not cleared to land")
+
+        def withdraw() -> None:
+            self._cleared = None
+
+        return withdraw
+
     def plan_leaving(self, command: LandCommand) -> Act:
         """Return what takes a landing clearance on the way to its runway."""
         take = self.plan_clearance(command)

@@ -132,10 +132,13 @@ class ProcedureCommands:
         curve: Curve,
         altitude_m: float,
         exit_path: Sequence[Place] = (),
+        *,
+        keeps_level: bool = False,
     ) -> None:
         """Fly a curve that ends at the threshold of a runway, and land there.
 
-        The altitude is held until the glide path along the curve is below it.
+        The altitude is held until the glide path along the curve is below it, or with
+        ``keeps_level`` until the last line of the curve.
         """
         control = self._control
         control.require_airborne("approach")
@@ -145,7 +148,9 @@ class ProcedureCommands:
         preparation = self._preparation()
         if not preparation.is_configured:
             systems.airframe.clean_up()
-        control.phase = Approach(systems, final, exit_path, path, level, preparation)
+        control.phase = Approach(
+            systems, final, exit_path, path, level, preparation, keeps_level=keeps_level
+        )
         control.guidance = EnRoute(
             systems, path, level, modes.airspeed(systems.kind.speeds.approach_kt * KNOT)
         )

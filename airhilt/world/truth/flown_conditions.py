@@ -63,7 +63,7 @@ def flown(condition: FlownCondition, site: ScenarioSite) -> BodyTest:
             place = site.fix(fix)
             if place is None:
                 raise ScenarioError(f"there is no fix {fix}")
-            return lambda body, _: _has_passed(body.state, place)
+            return lambda body, _: has_passed(body.state, place)
 
 
 def _altitude(altitude_m: float) -> BodyTest:
@@ -83,7 +83,8 @@ def _altitude(altitude_m: float) -> BodyTest:
     return reached
 
 
-def _has_passed(state: Kinematics, fix: Place) -> bool:
+def has_passed(state: Kinematics, fix: Place) -> bool:
+    """Return whether somebody is over a fix, or has it abeam."""
     here = (state.latitude_rad, state.longitude_rad)
     away_m = distance_m(here, fix)
     track_rad = math.atan2(state.velocity_east_m_s, state.velocity_north_m_s)
