@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -47,3 +48,11 @@ class Observer:
 
     def machine_failed(self, cause: str) -> None:
         """Take note that the run goes on without something that another machine might have kept."""
+
+
+class WarningObserver(Observer):
+    """Lets Python warn of what the user should know at once."""
+
+    def notice(self, text: str) -> None:
+        """Warn."""
+        warnings.warn(text, RuntimeWarning, stacklevel=2)
