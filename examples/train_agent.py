@@ -3,10 +3,10 @@
     pip install 'airhilt[rl]'
     python examples/train_agent.py --generations 40 --out agent.json --figure curve.svg
 
-Two airliners fly towards each other and would meet in 95 s. Every 10 s the agent tells each of them to climb, to descend,
-or nothing. A loss of separation costs 1, and each advisory 0.05. What it decides by is linear in
-three features of the ADS-B reports. It is compared on seeds that it was not trained on with saying
-nothing, and with the reference assistant.
+Two airliners fly towards each other and would meet in 95 s. Every 10 s the agent tells each of
+them to climb, to descend, or nothing. A loss of separation costs 1, and each advisory 0.05. What it
+decides by is linear in three features of the ADS-B reports. It is compared on seeds that it was not
+trained on with saying nothing, and with the reference assistant.
 """
 
 from __future__ import annotations
@@ -53,16 +53,19 @@ def encounter() -> Scenario:
 
 
 def features(traffic: NDArray[np.float32]) -> tuple[NDArray[np.float64], float]:
-    """Return the features of an encounter, and the time to its closest approach in s."""
+    """Return the features of an encounter, and the time to its closest approach in s.
+
+    The features are 1, its urgency, and the part of a level by which the two will be too near.
+    """
     known, place, velocity = traffic[:, 0], traffic[:, 1:4], traffic[:, 4:7]
     if not known.all():
-        return np.array([1.0, -1.0, 1.5]), np.inf
+        return np.array([1.0, -1.0, 0.0]), np.inf
     apart, closing = place[1] - place[0], velocity[1] - velocity[0]
     horizontal = closing[:2]
     to_go_s = float(-(apart[:2] @ horizontal) / max(float(horizontal @ horizontal), 1.0))
     vertical_m = abs(float(apart[2] + closing[2] * to_go_s))
     urgency = np.clip(1.0 - to_go_s / 100.0, -1.0, 1.0)
-    return np.array([1.0, urgency, min(vertical_m / LEVEL_M, 1.5)]), to_go_s
+    return np.array([1.0, urgency, max(1.0 - vertical_m / LEVEL_M, 0.0)]), to_go_s
 
 
 def choices(policy: Policy, seen: NDArray[np.float64]) -> list[int]:
@@ -113,8 +116,9 @@ def train(env: RunEnv, generations: int, out: Path) -> Policy:
 def reference(scenario: Scenario, seed: int) -> tuple[int, bool]:
     """Return the advisories of the reference assistant, and whether separation was lost."""
     with TemporaryDirectory() as folder:
-        options = {"cameras": False, "speech": False, "report": False, "latency": "fixed"}
-        result = airhilt.run(scenario, seed=seed, out=Path(folder) / "run", **options)
+        options: dict[str, Any] = {"cameras": False, "speech": False, "report": False}
+        out = Path(folder) / "run"
+        result = airhilt.run(scenario, seed=seed, latency="fixed", out=out, **options)
         told = {
             (advisory.recipient, advisory.recommendation)
             for logged in airhilt.open_run(result.folder).messages()
@@ -135,8 +139,10 @@ def compare(env: RunEnv, scenario: Scenario, policy: Policy, runs: int) -> None:
     }
     for name, rows in outcomes.items():
         advisories, lost = np.array(rows, float).T
-        print(f"{name:13} separation lost {int(lost.sum())} of {runs}, "
-              f"{advisories.mean():.1f} advisories a run")
+        print(
+            f"{name:13} separation lost {int(lost.sum())} of {runs}, "
+            f"{advisories.mean():.1f} advisories a run"
+        )
 
 
 def draw_curve(curve: list[dict[str, Any]], figure: Path) -> None:

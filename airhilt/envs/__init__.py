@@ -1,4 +1,4 @@
-"""Environments for agents that learn: a run that goes on step by step, for Gymnasium and PettingZoo.
+"""Environments of Gymnasium and PettingZoo for agents that learn: a run goes on step by step.
 
 `RunEnv` has one agent and `ParallelRunEnv` several. An agent is the assistant, sits as a controller
 at a unit, or flies an aircraft. It observes what it could know there, never the truth; its rewards

@@ -153,9 +153,7 @@ class Controller(SeatedAgent):
 
     def _act(self, callsign: str, manoeuvre: Manoeuvre, altitude_ft: float) -> tuple[str, Message]:
         words = speak_instruction(callsign, manoeuvre.instruction(altitude_ft), self._style)
-        return self._do(
-            SayText(text=words, frequency_khz=self._stations.frequency_of(callsign))
-        )
+        return self._do(SayText(text=words, frequency_khz=self._stations.frequency_of(callsign)))
 
     def _do(self, act: SeatAct) -> tuple[str, SeatAction]:
         return f"seat/{key_chunk(self.name)}/do", SeatAction(holder="agent", act=act)

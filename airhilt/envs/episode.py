@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.setup import TICK_S
 from airhilt.cosim.simulation import connected
@@ -25,6 +28,8 @@ from airhilt.sim.payload import Payload
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns
 from airhilt.world.loading import load
 
+Choices = Sequence[int] | NDArray[np.integer[Any]]
+"""For each aircraft of an agent, in their order: 0 for none, else the number of a manoeuvre."""
 LEFT = "its agents have left it"
 """Cause of the end of a run that is reset, or closed, before its end."""
 
@@ -152,13 +157,13 @@ class Episode:
                 self._simulation.post(key, message)
         return self._advanced(dict.fromkeys(self._agents, 0))
 
-    def step(self, choices: Mapping[str, Sequence[int]]) -> Stepped:
+    def step(self, choices: Mapping[str, Choices]) -> Stepped:
         """Let agents choose a manoeuvre for each of their aircraft, and the run go on by a step.
 
         Parameters
         ----------
         choices
-            By agent, for each aircraft in their order: 0 for none, else the number of a manoeuvre.
+            Of each agent, by its name.
         """
         chosen = dict.fromkeys(self._agents, 0)
         for name, numbers in choices.items():

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 
 from airhilt.cosim.observer import Observer
 from airhilt.envs.agents import ASSISTANT
-from airhilt.envs.episode import plan_of
+from airhilt.envs.episode import Choices, plan_of
 from airhilt.envs.episodes import Episodes
 from airhilt.envs.manoeuvres import Manoeuvre
 from airhilt.envs.rewards import Rewards
@@ -59,7 +59,7 @@ class RunEnv(gymnasium.Env[dict[str, Any], Any]):
         Something that was given is wrong.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
 
     def __init__(
         self,
@@ -100,9 +100,7 @@ class RunEnv(gymnasium.Env[dict[str, Any], Any]):
         stepped = self._episodes.reset(drawn)
         return stepped.observations[self._name], stepped.infos[self._name]
 
-    def step(
-        self, action: Sequence[int]
-    ) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
+    def step(self, action: Choices) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         """Choose manoeuvres, and let the run go on by a step."""
         name = self._name
         stepped = self._episodes.running.step({name: action})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from airhilt.commands import AltitudeCommand, Command, TurnCommand
+from airhilt.commands import AltitudeCommand, Command, Side, TurnCommand
 from airhilt.messages import Climb, Recommendation, Turn
 from airhilt.phraseology import Instruction
 
@@ -68,7 +68,7 @@ class TurnBy:
 
     def instruction(self, altitude_ft: float) -> Instruction:  # noqa: ARG002
         """Return it as the instruction of a controller."""
-        side = "right" if self.degrees > 0.0 else "left"
+        side: Side = "right" if self.degrees > 0.0 else "left"
         return Instruction("turn_by", turn=side, turn_deg=abs(self.degrees))
 
     def command(self, altitude_ft: float) -> TurnCommand:  # noqa: ARG002

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import AdsbReport, CockpitInstruments, Message, Transcript
@@ -102,7 +103,7 @@ class Perception:
             (now_ns - report.t_adsb_in_ns) / SECOND_NS,
         )
 
-    def _own(self) -> np.ndarray[Any, np.dtype[np.float32]]:
+    def _own(self) -> NDArray[np.float32]:
         shown = self._instruments
         if shown is None:
             return np.zeros(len(OWN), np.float32)
@@ -120,10 +121,19 @@ class Perception:
 
 
 def _within(
-    values: np.ndarray[Any, np.dtype[np.float32]], columns: Mapping[str, tuple[float, float]]
-) -> np.ndarray[Any, np.dtype[np.float32]]:
+    values: NDArray[np.float32], columns: Mapping[str, tuple[float, float]]
+) -> NDArray[np.float32]:
+    """Return values within the limits of their columns."""
+    least, greatest = bounds(columns)
+    return np.minimum(np.maximum(values, least), greatest)
+
+
+def bounds(
+    columns: Mapping[str, tuple[float, float]],
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return the least and the greatest values of columns."""
     least, greatest = np.array(tuple(columns.values()), np.float32).T
-    return np.clip(values, least, greatest)
+    return least, greatest
 
 
 def _printable(calls: str) -> str:

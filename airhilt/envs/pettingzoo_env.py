@@ -11,7 +11,7 @@ from gymnasium import spaces
 from pettingzoo import ParallelEnv
 
 from airhilt.cosim.observer import Observer
-from airhilt.envs.episode import plan_of
+from airhilt.envs.episode import Choices, plan_of
 from airhilt.envs.episodes import Episodes
 from airhilt.envs.gymnasium_env import SEEDS
 from airhilt.envs.manoeuvres import Manoeuvre
@@ -91,7 +91,7 @@ class ParallelRunEnv(ParallelEnv[str, dict[str, Any], Any]):
         return stepped.observations, stepped.infos
 
     def step(
-        self, actions: Mapping[str, Sequence[int]]
+        self, actions: Mapping[str, Choices]
     ) -> tuple[
         dict[str, dict[str, Any]],
         dict[str, float],
