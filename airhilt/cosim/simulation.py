@@ -206,14 +206,12 @@ class Simulation:
         log: LogWriter,
         latency_log: LatencyLog,
     ) -> None:
-        self.setup = setup
-        self._info = info
+        self.setup, self._info = setup, info
         self._participants = participants
         self._observer = observer
         self._vision = vision
         self._director = Director(pace)
-        self._log = log
-        self._latency_log = latency_log
+        self._log, self._latency_log = log, latency_log
         self.router = MessageRouter(bus, log)
         self._context = context = RunContext(setup, self._director, self.router, observer)
         stations = Stations(setup.actors, setup.site, setup.scenario)
@@ -231,8 +229,7 @@ class Simulation:
             partial(context.lose_modality, "radio", "radio_lost", "radio"),
             failed=lambda cause: observer.notice(f"asks the voices again: {cause}"),
         )
-        self._radio = self._make_radio(stations)
-        self._world.radio = self._radio
+        self._radio = self._world.radio = self._make_radio(stations)
         self._radio.start()
         self._pace_control = PaceControl(context, self._seats, self._radio, bus)
         if setup.seats:
@@ -240,8 +237,7 @@ class Simulation:
         self._questions = WorkloadQuestions(context, self._seats, self._pace_control)
         self._sensors: list[Sensor] = []
         self._failures: list[BaseException] = []
-        self._has_begun = False
-        self._wall_s, self._begun_cpu_s = 0.0, cpu_s()
+        self._begun: tuple[float, float] | None = None
         self._connect()
         self._vision.mount(context, self._world)
         self._schedule()
@@ -392,16 +388,14 @@ class Simulation:
 
         What fails is kept, and ends the run: `finish` raises it.
         """
-        begun_wall, goes_on = time.perf_counter(), False
         with _kept(self._failures):
-            if not self._has_begun:
+            if self._begun is None:
                 self._begin()
-            goes_on = self._director.run(until_ns)
-        self._wall_s += time.perf_counter() - begun_wall
-        return goes_on
+            return self._director.run(until_ns)
+        return False
 
     def _begin(self) -> None:
-        self._has_begun, self._begun_cpu_s = True, cpu_s()
+        self._begun = time.perf_counter(), cpu_s()
         self._set_modalities()
         self._brief()
         self._sensors += start_sensors(self.setup.sensor_types, self._sensor_context())
@@ -419,11 +413,13 @@ class Simulation:
         failures, folder = self._failures, self.setup.folder
         if failures and isinstance(failures[0], KeyboardInterrupt):
             self._observer.notice(f"interrupted; {folder.path} is complete up to here")
+        begun_wall, begun_cpu_s = self._begun or (time.perf_counter(), cpu_s())
+        wall_s, used_s = time.perf_counter() - begun_wall, cpu_s() - begun_cpu_s
         sensed = self._measurements_in_hand(failures)
         with _kept(failures):
             self._close_logs(_cause(failures) or cause, sensed)
         with _kept(failures):
-            summary = self._summary(_cause(failures) or cause)
+            summary = self._summary(_cause(failures) or cause, wall_s, used_s)
             folder.write_summary(summary)
             for sentence in summary.too_slow:
                 self._observer.notice(sentence)
@@ -505,7 +501,7 @@ class Simulation:
                 first.add_note(f"Failed as well, when the run was finished: {text}")
         return first
 
-    def _summary(self, cause: str) -> Summary:
+    def _summary(self, cause: str, wall_s: float, used_s: float) -> Summary:
         now_ns = self._director.now_ns
         return self._collector.summary(
             {
@@ -520,8 +516,8 @@ class Simulation:
                 "inputs_dropped": self._pool.inputs_dropped(),
                 "steps_missed": self._pool.steps_missed(),
                 "messages_dropped": self._programs.dropped,
-                "real_time_factor": now_ns / SECOND_NS / max(self._wall_s, 1e-9),
-                "cpu_s": cpu_s() - self._begun_cpu_s,
+                "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
+                "cpu_s": used_s,
             },
             now_ns,
         )

@@ -163,7 +163,7 @@ class Episode:
         Parameters
         ----------
         choices
-            Of each agent, by its name.
+            Choices of each agent, by its name.
         """
         chosen = dict.fromkeys(self._agents, 0)
         for name, numbers in choices.items():
