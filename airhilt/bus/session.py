@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 import re
 import socket
@@ -94,6 +95,23 @@ def configuration(
     return config
 
 
+_opened_by: set[int] = set()
+"""Ids of this process, and of those that it was forked from, that have opened a session."""
+
+
+def _opened(config: zenoh.Config) -> zenoh.Session:
+    """Return a session. The threads of Zenoh are not in a fork, where it would wait for ever."""
+    if _opened_by - {os.getpid()}:
+        raise BusError(
+            "this process was forked from one that has had a run or a client on the bus, and has "
+            "not the threads of its bus; expected another way to start it: "
+            "multiprocessing.get_context('spawn')"
+        )
+    session = zenoh.open(config)
+    _opened_by.add(os.getpid())
+    return session
+
+
 def connect_client(
     endpoint: str | None, patience_s: float, tls: Path | None = None, role: Role = "worker"
 ) -> zenoh.Session:
@@ -122,7 +140,7 @@ def connect_client(
     deadline = time.monotonic() + patience_s
     while True:
         try:
-            return zenoh.open(config)
+            return _opened(config)
         except zenoh.ZError as error:
             _require_shared_memory(error)
             if time.monotonic() > deadline:
@@ -212,7 +230,7 @@ class Bus(ClosedBus):
         }
         settings |= keys.settings if keys else {}
         try:
-            self.session = zenoh.open(configuration("router", "listen", self.endpoint, settings))
+            self.session = _opened(configuration("router", "listen", self.endpoint, settings))
         except zenoh.ZError as error:
             _require_shared_memory(error)
             advice = (

@@ -104,7 +104,7 @@ def seat_states(
         frequencies_khz = stations.selectable(seat)
         yield SeatState(
             seat=seat,
-            **_equipment_of(seat, setup.scenario),
+            **seat_equipment(seat, setup.scenario),
             frequencies_khz=frequencies_khz,
             tuned_khz=frequencies_khz,
             has_own_receiver=seat in radio.receivers,
@@ -115,7 +115,7 @@ def seat_states(
         )
 
 
-def _equipment_of(seat: str, scenario: Scenario) -> dict[str, Any]:
+def seat_equipment(seat: str, scenario: Scenario) -> dict[str, Any]:
     """Return the fields that say what a person at a seat is shown."""
     for spec in scenario.actors:
         if spec.callsign == seat and not isinstance(spec, WildlifeSpec):

@@ -200,8 +200,8 @@ class ExternalPrograms:
                 f"a program that takes no grants published on {key}: going on in real time"
             )
 
-    def take_recorded(self, key: str, data: bytes) -> None:
-        """Let a message of an earlier run count, which was accepted there."""
+    def take_accepted(self, key: str, data: bytes) -> None:
+        """Let a message count of an earlier run, which was accepted there, or of this process."""
         if key not in self._act_keys:
             self.take(key, data)
             return
