@@ -127,7 +127,7 @@ def reference(scenario: Scenario, seed: int) -> tuple[int, bool]:
         result = airhilt.run(scenario, seed=seed, latency="fixed", out=out, **options)
         told = {
             (advisory.recipient, advisory.recommendation)
-            for logged in airhilt.open_run(result.folder).messages()
+            for logged in airhilt.open_run(result.folder).log()
             if logged.key.startswith("advisory/") and logged.key != "advisory/ATC"
             if (advisory := Advisory.model_validate_json(logged.data)).active
             and advisory.recommendation is not None
