@@ -19,11 +19,13 @@ from airhilt.assistant.asr.engine import AsrEngine, Call, recognised
 from airhilt.assistant.asr.service_messages import TranscribedWord, Transcription, TranscriptionForm
 from airhilt.assistant.decision.served import ServedAssistant
 from airhilt.assistant.decision.service_messages import AssistantRequest
-from airhilt.assistant.reference import reference_worker
+from airhilt.assistant.reference import decision_worker
 from airhilt.assistant.service_kinds import PATHS, ServiceKind
 from airhilt.assistant.services_document import services_document
 from airhilt.assistant.vision.detector import Detector, DetectsShots, Shot
+from airhilt.assistant.vision.gating import SeesParts
 from airhilt.assistant.vision.service_messages import DetectionAnswer, FoundObject, PictureRequest
+from airhilt.assistant.vision.tiling import Tile
 from airhilt.audio.wav import decode_speech, encode_wav
 from airhilt.engine_families import DETECTORS, RECOGNISERS, VOICES
 from airhilt.errors import AirhiltError, first_problem
@@ -135,22 +137,31 @@ def _vision(name: str) -> Answer:
             top,
             None if own is None else np.asarray(own),
         )
-        found = (
-            engine.detect_shot(picture, shot)
-            if isinstance(engine, DetectsShots)
-            else engine.detect(picture)
-        )
+        if request.window_px is not None and isinstance(engine, SeesParts):
+            left, top, right, bottom = request.window_px
+            found = engine.detect_in(picture, Tile(top, left, bottom - top, right - left), shot)
+        elif isinstance(engine, DetectsShots):
+            found = engine.detect_shot(picture, shot)
+        else:
+            found = engine.detect(picture)
         objects = tuple(FoundObject.model_validate(each._asdict()) for each in found)
-        return _json(DetectionAnswer(detections=objects))
+        return _json(
+            DetectionAnswer(
+                detections=objects,
+                threshold=engine.threshold,
+                looks_at_windows=isinstance(engine, SeesParts),
+            )
+        )
 
     return answer
 
 
 def _decision(name: str) -> Answer:
-    assistant = ServedAssistant(lambda: reference_worker("decision", name))
+    assistant = ServedAssistant(lambda: decision_worker(name))
 
-    def answer(body: bytes, _: Mapping[str, str]) -> Response:
-        return _json(assistant.answer(AssistantRequest.model_validate_json(body)))
+    def answer(body: bytes, headers: Mapping[str, str]) -> Response:
+        run_id = ServiceHeaders.decoded(headers).run_id or ""
+        return _json(assistant.answer(AssistantRequest.model_validate_json(body), run_id))
 
     return answer
 
