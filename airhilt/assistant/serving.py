@@ -13,6 +13,7 @@ import numpy as np
 from fastapi import FastAPI, HTTPException, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from PIL import Image, UnidentifiedImageError
+from prometheus_client import CONTENT_TYPE_LATEST
 from pydantic import BaseModel, ValidationError
 
 from airhilt.assistant.asr.engine import AsrEngine, Call, recognised
@@ -21,6 +22,7 @@ from airhilt.assistant.decision.served import ServedAssistant
 from airhilt.assistant.decision.service_messages import AssistantRequest
 from airhilt.assistant.reference import decision_worker
 from airhilt.assistant.service_kinds import PATHS, ServiceKind
+from airhilt.assistant.service_metrics import ServiceMetrics
 from airhilt.assistant.services_document import services_document
 from airhilt.assistant.vision.detector import Detector, DetectsShots, Shot
 from airhilt.assistant.vision.gating import SeesParts
@@ -50,22 +52,34 @@ def service_app(kind: ServiceKind, engine: str) -> FastAPI:
         The engine cannot be loaded.
     """
     answer = _ANSWERS[kind](engine)
+    metrics = ServiceMetrics(kind, engine)
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     lock = threading.Lock()
 
     def locked(body: bytes, headers: Mapping[str, str]) -> Response:
-        with lock:
+        with metrics.in_progress(), lock, metrics.engine_time():
             return answer(body, headers)
 
     @app.post(PATHS[kind])
     async def post(request: Request) -> Response:
         body = await request.body()
+        status = 500
         try:
-            return await run_in_threadpool(locked, body, request.headers)
+            answered = await run_in_threadpool(locked, body, request.headers)
+            status = answered.status_code
         except ValidationError as error:
-            raise HTTPException(422, first_problem(error)) from None
+            status = 422
+            raise HTTPException(status, first_problem(error)) from None
         except AirhiltError as error:
-            raise HTTPException(422, str(error)) from None
+            status = 422
+            raise HTTPException(status, str(error)) from None
+        finally:
+            metrics.answered(status)
+        return answered
+
+    @app.get("/metrics")
+    async def measured() -> Response:
+        return Response(metrics.text(), media_type=CONTENT_TYPE_LATEST)
 
     @app.get("/health")
     async def health() -> dict[str, str]:
