@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
@@ -11,11 +12,12 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
+from prometheus_client.parser import text_string_to_metric_families
 from pydantic import TypeAdapter
 
-from airhilt import Scenario, run
+from airhilt import Scenario, __version__, run
 from airhilt.assistant.asr.engine import Call
 from airhilt.assistant.asr.engines.http import HttpAsr
 from airhilt.assistant.decision.engines.http import assistant_at
@@ -64,6 +66,17 @@ def test_each_passes_the_check_and_describes_itself(kind: ServiceKind) -> None:
         health = httpx.get(f"{base}/health").json()
         assert health == {"status": "ok", "kind": kind, "engine": ENGINES[kind]}
         assert httpx.get(f"{base}/openapi.json").json() == services_document()
+        assert httpx.post(url, content=b"").status_code == 422
+        measured = {
+            (each.name, *each.labels.values()): each.value
+            for family in text_string_to_metric_families(httpx.get(f"{base}/metrics").text)
+            for each in family.samples
+        }
+        assert measured["airhilt_service_info", ENGINES[kind], kind, __version__] == 1.0
+        assert measured["airhilt_answers_total", "422"] == 1.0
+        answers = measured["airhilt_answers_total", "200"] + 1.0
+        assert measured[("airhilt_engine_seconds_count",)] == answers > 1.0
+        assert measured[("airhilt_requests_in_progress",)] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -138,7 +151,12 @@ def test_a_service_that_has_forgotten_a_run_says_so() -> None:
         engine.decide(0)
 
 
-@given(st.from_type(Finding))
+def is_finite(finding: Finding) -> bool:
+    return not re.search(r"\b(inf|nan)\b", repr(finding))
+
+
+@settings(max_examples=50)
+@given(st.from_type(Finding).filter(is_finite))
 def test_a_finding_arrives_as_it_was_sent(finding: Finding) -> None:
     """Whatever was found: the wording of the run makes the message of it."""
     adapter: TypeAdapter[Finding] = TypeAdapter(Finding)
