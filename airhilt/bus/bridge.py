@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import zenoh
 
-from airhilt.bus.session import ROOT, close_session, connect_client
+from airhilt.bus.session import close_session, connect_client, find_run, wait_until_over
 from airhilt.errors import BusError
-from airhilt.messages import AdsbReport, Clock
+from airhilt.messages import AdsbReport
 from airhilt.units import SECOND_NS
 
 PATIENCE_S = 30.0
@@ -46,6 +46,7 @@ def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
     )
     parser.add_argument("--connect", help="the run's endpoint, if not that of the keys")
     parser.add_argument("--tls", type=Path, help="folder with observer.json of `airhilt keys init`")
+    parser.add_argument("--run", help="name of the run, where a router leads to several")
     parser.add_argument("--port", type=int, default=port, help=f"default: {port}")
     return parser
 
@@ -70,19 +71,10 @@ def relay(
     Raises
     ------
     BusError
-        There is no run at the endpoint, or it does not let this program in.
+        There is no run at the endpoint, or there are several and none is named; or it does not let
+        this program in.
     """
     session = connect_client(given.connect, PATIENCE_S, given.tls, "observer")
-    is_over = threading.Event()
-
-    def hear_clock(sample: zenoh.Sample) -> None:
-        clock = Clock.model_validate_json(sample.payload.to_bytes())
-        if clock.phase in ("finished", "stopped"):
-            is_over.set()
-
-    def hear_presence(sample: zenoh.Sample) -> None:
-        if sample.kind == zenoh.SampleKind.DELETE:
-            is_over.set()
 
     def forward(call: Callable[[bytes], None]) -> Callable[[zenoh.Sample], None]:
         return lambda sample: call(sample.payload.to_bytes())
@@ -96,13 +88,16 @@ def relay(
 
     calls = {key: forward(call) for key, call in heard.items()}
     calls |= {key: forward_raw(call) for key, call in (heard_raw or {}).items()}
+    try:
+        prefix = find_run(session, PATIENCE_S, given.run)
+    except BusError:
+        close_session(session)
+        raise
     subscribers = [
-        session.declare_subscriber(f"{ROOT}/*/{key}", call) for key, call in calls.items()
+        session.declare_subscriber(f"{prefix}/{key}", call) for key, call in calls.items()
     ]
-    subscribers.append(session.declare_subscriber(f"{ROOT}/*/clock", hear_clock))
-    subscribers.append(session.liveliness().declare_subscriber(f"{ROOT}/*/run", hear_presence))
     with contextlib.suppress(KeyboardInterrupt):
-        is_over.wait()
+        wait_until_over(session, prefix)
     for subscriber in subscribers:
         subscriber.undeclare()  # type: ignore[no-untyped-call]
     close_session(session)

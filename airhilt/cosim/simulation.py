@@ -7,6 +7,7 @@ Data flows one way: actors, sensors, workers, advisories, crews.
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
@@ -373,11 +374,24 @@ class Simulation:
     def _serve(self, bus: ClosedBus) -> None:
         """Notice workers that end, and hear what other programs publish by themselves."""
         expected = set(self._participants.attached)
+        leaving: dict[str, threading.Timer] = {}
+        returns_s = bus.returns_s
+
+        def give_up(name: str) -> None:
+            expected.discard(name)
+            self._director.post(partial(self._gone, name))
 
         def changed(name: str, alive: bool) -> None:
-            if not alive and name in expected:
-                expected.discard(name)
-                self._director.post(partial(self._gone, name))
+            if name not in expected:
+                return
+            if alive and name in leaving:
+                leaving.pop(name).cancel()
+            elif not alive and returns_s:
+                leaving[name] = timer = threading.Timer(returns_s, give_up, (name,))
+                timer.daemon = True
+                timer.start()
+            elif not alive:
+                give_up(name)
 
         bus.watch_workers(changed)
         self._programs.serve(bus)

@@ -31,7 +31,7 @@ MOST_IN_WINDOWS = 0.5
 class SeesParts(Detector, Protocol):
     """A detector that finds nearly the same in a part of a picture as in the whole."""
 
-    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+    def detect_in(self, picture: Picture, part: Tile, shot: Shot) -> Sequence[Found]:
         """Return what is in a part of a picture, with boxes as they are in the picture.
 
         It raises what `Detector.detect` does.
@@ -197,7 +197,7 @@ class Gate:
         seen = [
             one
             for window in windows
-            for one in detector.detect_in(pixels, window)
+            for one in detector.detect_in(pixels, window, shot)
             if window.holds(centre(one.box))
         ]
         return Look(tuple(windows), tuple(_together(last.found, seen, windows)))

@@ -126,7 +126,7 @@ def test_who_writes_into_a_picture_afterwards_changes_nothing() -> None:
 class PartBlobDetector(BlobDetector):
     """Sees parts of pictures too."""
 
-    def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+    def detect_in(self, picture: Picture, part: Tile, shot: Shot) -> list[Found]:
         found = self.detect(part.of(picture))
         return [one._replace(box=moved(one.box, part.left, part.top)) for one in found]
 
@@ -158,7 +158,7 @@ def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
 
 def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
     class FarReaching(PartBlobDetector):
-        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+        def detect_in(self, picture: Picture, part: Tile, shot: Shot) -> list[Found]:
             _, top, right, bottom = part.box
             inner = right - 30.0, top, right + 20.0, bottom
             outer = right - 20.0, top, right + 30.0, bottom

@@ -17,7 +17,7 @@ import numpy as np
 import onnxruntime
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, once
+from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, Shot, once
 from airhilt.assistant.vision.refiner import Refiner, RefinerCard
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
@@ -141,7 +141,12 @@ class EmbeddedDetector:
         """Return what is in a picture; see `Detector.detect`."""
         return self._told(picture, self.proposed(picture))
 
-    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+    def detect_in(
+        self,
+        picture: Picture,
+        part: Tile,
+        shot: Shot,  # noqa: ARG002
+    ) -> Sequence[Found]:
         """Return what is in a part of a picture; see `airhilt.assistant.vision.gating.SeesParts`.
 
         The first network was trained on tiles of 96 to 288 pixels. The refiner has the whole
