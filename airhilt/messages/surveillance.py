@@ -6,7 +6,7 @@ from typing import Literal, get_args
 
 from pydantic import Field
 
-from airhilt.messages.base import Message, Nanoseconds
+from airhilt.messages.base import Limit, Message, Nanoseconds
 
 EmitterCategory = Literal[
     "A0", "A1", "A2", "A3", "A4", "A5", "A6", "A7",
@@ -27,6 +27,7 @@ EMERGENCY_STATES: tuple[EmergencyState, ...] = get_args(EmergencyState)
 class AdsbReport(Message):
     """``adsb/<icao24>``: state vector from an ADS-B receiver, in the units of DO-260B."""
 
+    limit = Limit(size_bytes=2_000, rate_hz=1_000)
     icao24: str = Field(pattern=r"^[0-9a-f]{6}$")
     callsign: str | None = Field(description="null until an identification squitter came through")
     latitude_deg: float = Field(ge=-90.0, le=90.0)

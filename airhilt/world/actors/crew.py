@@ -44,7 +44,7 @@ from airhilt.messages import (
     Recommendation,
     Turn,
 )
-from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
+from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels, OnTrack
 from airhilt.surveillance.radar import discrete_code
 from airhilt.surveillance.transponders import EMERGENCY_CODES, GENERAL_EMERGENCY
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
@@ -143,8 +143,10 @@ class Crew:
         self._reactions = ReactionModel(spec.callsign, responses, spec.pilot, seed)
         self._site = site
         self._envelope = Envelope(aircraft, site.ground_m)
-        self._return_lateral: Callable[[], None] = partial(
-            aircraft.en_route.hold_track, aircraft.state.track_rad
+        self._return_lateral: Callable[[], None] = (
+            aircraft.en_route.resume_route
+            if isinstance(spec.initial, OnTrack)
+            else partial(aircraft.en_route.hold_track, aircraft.state.track_rad)
         )
         self._altitude_before_m = aircraft.target_altitude_m
         self._followed: dict[str, int] = {}
