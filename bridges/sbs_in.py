@@ -29,7 +29,7 @@ class SbsFeed:
         *lines, self._rest = (self._rest + data).split(b"\n")
         for line in lines:
             row = self._lines.row(line.decode(errors="replace").strip())
-            report = None if row is None else report_of(row | {"t_s": 0.0})
+            report = None if row is None else report_of({**row, "t_s": 0.0})
             if report is not None:
                 yield report
 

@@ -112,8 +112,8 @@ def import_(
     imported = scenario_of(traffic, Wanted(name, **given))
     notes = [*(f"left out: {bad}" for bad in traffic.bad), *imported.notes]
     if traffic.without_altitude:
-        count = counted(traffic.without_altitude, "position")
-        notes.append(f"{count} without an altitude left out")
+        left_out = counted(traffic.without_altitude, "position")
+        notes.append(f"{left_out} without an altitude left out")
     for note in notes[:SHOWN_NOTES]:
         echo(f"note: {note}", err=True)
     if len(notes) > SHOWN_NOTES:

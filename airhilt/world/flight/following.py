@@ -108,11 +108,16 @@ class TrackFollower:
 
     def route(self) -> list[Place]:
         """Return the rest of the track in the air as waypoints, each a leg from the one before."""
-        route = [self.state.place]
-        for place in self.track.places_after(self.t_s):
-            if distance_m(route[-1], place) >= LEG_M:
+        last = self.state.place
+        route: list[Place] = []
+        places = self.track.places_after(self.t_s)
+        for place in places:
+            if distance_m(last, place) >= LEG_M:
                 route.append(place)
-        return route[1:]
+                last = place
+        if route:
+            route[-1] = places[-1]
+        return route
 
     def departure(self) -> tuple[InitialCondition | OnGround, Atmosphere]:
         """Return how the flight by the flight dynamics begins, and the air that it flies in.

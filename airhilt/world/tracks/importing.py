@@ -205,13 +205,13 @@ def _scene(chosen: dict[str, list[Record]], wanted: Wanted) -> dict[str, Any]:
 def _points(records: Sequence[Record], begin_s: float) -> list[list[float | None]]:
     """Return the points of a track, without those that lie close to the one before in time."""
     kept = [records[0]]
-    for record, after in zip(records[1:], [*records[2:], None], strict=True):
-        passed_s = record.t_s - kept[-1].t_s
-        is_last = after is None
-        is_needed = is_last or after.t_s - kept[-1].t_s > LONGEST_STEP_S
-        changes = (record.altitude_ft is None) != (kept[-1].altitude_ft is None)
-        if passed_s >= LEAST_STEP_S or is_needed or changes:
+    for record, after in itertools.pairwise(records[1:]):
+        last = kept[-1]
+        is_needed = after.t_s - last.t_s > LONGEST_STEP_S
+        touches = (record.altitude_ft is None) != (last.altitude_ft is None)
+        if record.t_s - last.t_s >= LEAST_STEP_S or is_needed or touches:
             kept.append(record)
+    kept.append(records[-1])
     if len(kept) > MOST_POINTS:
         raise TracksError(
             f"{records[0].icao24}: {len(kept):,} points; expected at most {MOST_POINTS:,}: choose "

@@ -8,6 +8,10 @@ from airhilt.world.tracks.record import Row, TracksError
 
 EXTENDED_SQUITTERS = (17, 18)
 """Downlink formats of ADS-B."""
+IDENTIFICATION, SURFACE_POSITION = "0,8", "0,6"
+"""Registers of the transponder that extended squitters have (DO-260B, 2.2.3.2)."""
+CATEGORY_SETS = {4: "A", 3: "B", 2: "C", 1: "D"}
+"""Sets of emitter categories by the type code of the identification (DO-260B, 2.2.3.2.5.2)."""
 
 
 class FrameDecoder:
@@ -19,17 +23,21 @@ class FrameDecoder:
 
     def __init__(self, surface_ref: tuple[float, float] | None = None) -> None:
         try:
-            from pyModeS import PipeDecoder
+            from pyModeS import DecodeError, PipeDecoder
         except ImportError:
             raise TracksError(
                 "Mode S frames need pyModeS, which is not installed: pip install airhilt[decoders]"
             ) from None
         self._decoder: Any = PipeDecoder(surface_ref=surface_ref)
+        self._error: Any = DecodeError
         self._said: dict[str, dict[str, Any]] = {}
 
     def row(self, frame: str, t_s: float) -> Row | None:
         """Return the values of a frame (hexadecimal) with a position; None for all others."""
-        found = self._decoder.decode(frame, timestamp=t_s)
+        try:
+            found = self._decoder.decode(frame, timestamp=t_s)
+        except self._error:
+            return None
         if found.get("crc_valid") is False or found.get("df") not in EXTENDED_SQUITTERS:
             return None
         address = str(found["icao"]).lower()
@@ -42,10 +50,14 @@ class FrameDecoder:
                 ("track_deg", "track"),
                 ("vertical_rate_fpm", "vertical_rate"),
                 ("squawk", "squawk"),
-                ("category", "wake_vortex"),
+                ("nacp", "nac_p"),
+                ("nacv", "nac_v"),
+                ("sil", "sil"),
             )
             if found.get(key) is not None
         }
+        if found.get("bds") == IDENTIFICATION:
+            said["category"] = f"{CATEGORY_SETS[found['typecode']]}{found['category']}"
         if found.get("latitude") is None or found.get("longitude") is None:
             return None
         return said | {
@@ -54,5 +66,5 @@ class FrameDecoder:
             "latitude_deg": found["latitude"],
             "longitude_deg": found["longitude"],
             "altitude_ft": found.get("altitude"),
-            "on_ground": found.get("bds") == "0,6",
+            "on_ground": found.get("bds") == SURFACE_POSITION,
         }

@@ -69,9 +69,8 @@ def read_traffic(path: Path, name: str | None = None) -> Traffic:
     except OSError as error:
         raise TracksError(f"{path}: cannot be read: {error.strerror or error}") from None
     for address, records in traffic.by_aircraft.items():
-        good, bad = _reachable(records, form)
-        traffic.by_aircraft[address] = good
-        traffic.bad += bad
+        traffic.by_aircraft[address], unreachable = _reachable(records, form)
+        traffic.bad += unreachable
     return traffic
 
 

@@ -24,7 +24,9 @@ def test_the_dynamic_pressure_is_that_of_its_mach_number() -> None:
     aircraft = in_cruise("737")
     pressure_pa = standard_atmosphere.pressure(aircraft.state.altitude_m)
     expected_pa = 0.7 * pressure_pa * aircraft.state.mach**2
-    assert aircraft._airframe.dynamic_pressure_pa() == pytest.approx(expected_pa, rel=5e-3)
+    assert aircraft.en_route.systems.airframe.dynamic_pressure_pa() == pytest.approx(
+        expected_pa, rel=5e-3
+    )
 
 
 @pytest.mark.parametrize("name", ["c172p", "737"])
@@ -43,7 +45,7 @@ def test_the_main_wheels_are_on_the_ground_while_the_nose_is_lifted(name: str) -
 
 def test_cleaned_up_it_has_gear_flaps_and_speed_brakes_in() -> None:
     aircraft = on_final("737", distance_nm=8.0)
-    airframe: Airframe = aircraft._airframe
+    airframe: Airframe = aircraft.en_route.systems.airframe
     airframe.set_speed_brakes(1.0)
     aircraft.advance()
     assert (aircraft.gear, aircraft.flaps) != (0.0, 0.0)
@@ -68,7 +70,7 @@ def wind_of(airframe: Airframe) -> list[float]:
 
 
 def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it() -> None:
-    airframe: Airframe = on_the_ground("737", atmosphere=WINDY)._airframe
+    airframe: Airframe = on_the_ground("737", atmosphere=WINDY).en_route.systems.airframe
     whole = [6.3, -4.1, 2.7]
     assert wind_of(airframe) == [0.0, 0.0, 0.0]
     for speed_m_s, part in ((3.0, 0.2), (7.5, 0.5), (15.0, 1.0), (60.0, 1.0), (0.0, 0.0)):
@@ -78,7 +80,7 @@ def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it() -> 
 
 def test_an_aircraft_in_flight_has_the_whole_wind_from_the_beginning() -> None:
     aircraft = in_cruise("737", atmosphere=Atmosphere(wind_north_m_s=20.0, wind_east_m_s=-12.0))
-    assert wind_of(aircraft._airframe)[:2] == pytest.approx([20.0, -12.0], abs=1e-6)
+    assert wind_of(aircraft.en_route.systems.airframe)[:2] == pytest.approx([20.0, -12.0], abs=1e-6)
     state = aircraft.state
     heading = state.heading_rad
     airspeed = state.true_airspeed_m_s
@@ -119,12 +121,12 @@ def test_a_wind_across_that_is_stronger_than_the_airspeed_is_refused(
 
 
 def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel() -> None:
-    standing: Airframe = on_the_ground("737")._airframe
+    standing: Airframe = on_the_ground("737").en_route.systems.airframe
     assert standing.on_ground()
     assert standing.nose_on_ground()
     assert standing.gear() == 1.0
     assert standing.flaps() == pytest.approx(load_aircraft_type("737").takeoff.flaps, abs=0.01)
-    flying: Airframe = in_cruise("737")._airframe
+    flying: Airframe = in_cruise("737").en_route.systems.airframe
     assert not flying.on_ground()
     assert not flying.nose_on_ground()
     assert (flying.gear(), flying.flaps()) == (0.0, 0.0)
@@ -132,5 +134,9 @@ def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel() -> None:
 
 def test_the_wheelbase_is_that_of_the_aircraft() -> None:
     """15.6 m of the 737-800 (Boeing D6-58325-6), 1.65 m of the 172 (its flight manual)."""
-    assert on_the_ground("737")._airframe.wheelbase_m == pytest.approx(15.6, rel=0.25)
-    assert on_the_ground("c172p")._airframe.wheelbase_m == pytest.approx(1.65, rel=0.25)
+    assert on_the_ground("737").en_route.systems.airframe.wheelbase_m == pytest.approx(
+        15.6, rel=0.25
+    )
+    assert on_the_ground("c172p").en_route.systems.airframe.wheelbase_m == pytest.approx(
+        1.65, rel=0.25
+    )
