@@ -80,15 +80,18 @@ def track_problems(points: Iterable[TrackPoint]) -> Iterator[TrackProblem]:
     A point that is yielded is left out of the comparison with those behind it.
     """
     last: TrackPoint | None = None
+    airborne: TrackPoint | None = None
     for number, point in enumerate(points):
-        problem = None if last is None else _problem(last, point)
-        if problem is None:
-            last = point
-        else:
+        problem = last and _step_problem(last, point)
+        problem = problem or (airborne and _climb_problem(airborne, point))
+        if problem is not None:
             yield TrackProblem(number, *problem)
+            continue
+        last = point
+        airborne = airborne if point.altitude_m is None else point
 
 
-def _problem(last: TrackPoint, point: TrackPoint) -> tuple[str, str] | None:
+def _step_problem(last: TrackPoint, point: TrackPoint) -> tuple[str, str] | None:
     passed_s = point.t_s - last.t_s
     if passed_s <= 0.0:
         return "time", f"{-passed_s:g} s before the one before; expected a later time"
@@ -98,6 +101,11 @@ def _problem(last: TrackPoint, point: TrackPoint) -> tuple[str, str] | None:
             f"{distance_m(last.place, point.place):,.0f} m from the one before, {passed_s:g} s "
             f"earlier; expected at most {FASTEST_M_S / KNOT:g} kt"
         )
+    return None
+
+
+def _climb_problem(last: TrackPoint, point: TrackPoint) -> tuple[str, str] | None:
+    passed_s = point.t_s - last.t_s
     if last.altitude_m is not None and point.altitude_m is not None:
         up_m = abs(point.altitude_m - last.altitude_m)
         if up_m > STEEPEST_M_S * (passed_s + TIME_ERROR_S) + ALTITUDE_STEP_M:

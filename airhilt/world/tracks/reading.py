@@ -96,11 +96,12 @@ def point_of(record: Record, begin_s: float) -> TrackPoint:
 def _reachable(records: list[Record], form: Format) -> tuple[list[Record], list[BadRecord]]:
     """Return the records that follow from those before them, and the others.
 
-    Of two records of one time the first one stays: receivers repeat what they have.
+    Receivers repeat what they have: of two records of one time, or of one place in the air, the
+    first one stays.
     """
     alone = [records[0]]
     for record in records[1:]:
-        if record.t_s != alone[-1].t_s:
+        if not _is_repeated(alone[-1], record):
             alone.append(record)
     points = [point_of(record, 0.0) for record in alone]
     names = {"time": "t_s", "position": "latitude_deg", "altitude": "altitude_ft"}
@@ -117,6 +118,12 @@ def _reachable(records: list[Record], form: Format) -> tuple[list[Record], list[
             bad[number] = BadRecord(alone[number].where, form.fields["latitude_deg"], text)
     good = [record for number, record in enumerate(alone) if number not in bad]
     return good, [bad[number] for number in sorted(bad)]
+
+
+def _is_repeated(last: Record, record: Record) -> bool:
+    places = [(each.latitude_deg, each.longitude_deg) for each in (last, record)]
+    is_airborne = last.altitude_ft is not None and record.altitude_ft is not None
+    return record.t_s == last.t_s or (is_airborne and places[0] == places[1])
 
 
 def _doubt(before: Record, record: Record, after: Record) -> str | None:

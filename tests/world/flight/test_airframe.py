@@ -24,9 +24,7 @@ def test_the_dynamic_pressure_is_that_of_its_mach_number() -> None:
     aircraft = in_cruise("737")
     pressure_pa = standard_atmosphere.pressure(aircraft.state.altitude_m)
     expected_pa = 0.7 * pressure_pa * aircraft.state.mach**2
-    assert aircraft.en_route.systems.airframe.dynamic_pressure_pa() == pytest.approx(
-        expected_pa, rel=5e-3
-    )
+    assert aircraft._airframe.dynamic_pressure_pa() == pytest.approx(expected_pa, rel=5e-3)
 
 
 @pytest.mark.parametrize("name", ["c172p", "737"])
@@ -134,9 +132,5 @@ def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel() -> None:
 
 def test_the_wheelbase_is_that_of_the_aircraft() -> None:
     """15.6 m of the 737-800 (Boeing D6-58325-6), 1.65 m of the 172 (its flight manual)."""
-    assert on_the_ground("737").en_route.systems.airframe.wheelbase_m == pytest.approx(
-        15.6, rel=0.25
-    )
-    assert on_the_ground("c172p").en_route.systems.airframe.wheelbase_m == pytest.approx(
-        1.65, rel=0.25
-    )
+    assert on_the_ground("737")._airframe.wheelbase_m == pytest.approx(15.6, rel=0.25)
+    assert on_the_ground("c172p")._airframe.wheelbase_m == pytest.approx(1.65, rel=0.25)
