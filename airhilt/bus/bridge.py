@@ -112,21 +112,26 @@ def relay(
     subscribers.append(session.declare_subscriber(f"{ROOT}/*/clock", hear_clock))
     subscribers.append(session.liveliness().declare_subscriber(f"{ROOT}/*/run", hear_presence))
     if feed is not None:
-        prefix = find_run(session, PATIENCE_S)
-
-        def publish(key: str, message: Message) -> None:
-            session.put(
-                f"{prefix}/{key}",
-                message.model_dump_json(),
-                congestion_control=zenoh.CongestionControl.BLOCK,
-            )
-
-        threading.Thread(target=feed, args=(publish,), daemon=True).start()
+        threading.Thread(target=feed, args=(_publishing(session),), daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt):
         is_over.wait()
     for subscriber in subscribers:
         subscriber.undeclare()  # type: ignore[no-untyped-call]
     close_session(session)
+
+
+def _publishing(session: zenoh.Session) -> Publish:
+    """Return what publishes messages in the run of a session."""
+    prefix = find_run(session, PATIENCE_S)
+
+    def publish(key: str, message: Message) -> None:
+        session.put(
+            f"{prefix}/{key}",
+            message.model_dump_json(),
+            congestion_control=zenoh.CongestionControl.BLOCK,
+        )
+
+    return publish
 
 
 @contextlib.contextmanager

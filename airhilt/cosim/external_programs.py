@@ -243,11 +243,7 @@ class ExternalPrograms:
         self._context.router.heard(key, stamped, UNREGISTERED)
 
     def _require_allowed(self, key: str, message: Message) -> None:
-        """Complain about what belongs to others.
-
-        That is an advisory of a worker, a command to an actor left to a person, and an ADS-B
-        report of an actor.
-        """
+        """Complain about an advisory of a worker, a command to a person's actor, or an actor's ADS-B."""
         if isinstance(message, Advisory):
             for name in self._workers:
                 if message.id.startswith(f"{name}-"):

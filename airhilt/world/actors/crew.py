@@ -69,12 +69,10 @@ from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel, Respons
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.actors.traffic import Traffic
 from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.flight.following import GEAR_DOWN_BELOW_M
 from airhilt.world.flight.procedures.en_route import EmergencyDescent
 from airhilt.world.site import ScenarioSite
 
-GEAR_DOWN_BELOW_M = 600.0
-"""Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
-11 km before the threshold."""
 ENDS_DEPARTURE = (
     TaxiCommand,
     TaxiToCommand,

@@ -12,6 +12,7 @@ from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.guidance import GuidanceModes
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
+from airhilt.world.flight.procedures.taxi import AT_REST_M_S
 from airhilt.world.flight.route import legs_through
 from airhilt.world.flight.state import AircraftState, Atmosphere, InitialCondition, OnGround
 from airhilt.world.flight.track import RecordedTrack, TrackPoint
@@ -21,11 +22,10 @@ ROW_TICKS = 200
 LEG_M = 3000.0
 """Least length of a leg of the route that the rest of a track becomes, in m."""
 GEAR_DOWN_BELOW_M = 600.0
-"""Height above the ground in m below which the gear is down, as in `Crew.mesh`."""
+"""Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
+11 km before the threshold."""
 LANDING_BELOW_M = 3000.0 * FOOT
 """Height above the ground in m below which an aircraft at approach speed has its flaps down."""
-AT_REST_M_S = 0.1
-"""Ground speed in m/s below which an aircraft on the ground stands."""
 LeaveTrack = Callable[[InitialCondition | OnGround, Atmosphere], AircraftSystems]
 """Begins the flight by the flight dynamics, in the air that it then flies in."""
 
@@ -169,7 +169,7 @@ class TrackFollower:
         )
 
 
-class OnTrack(FlightPhase):
+class TrackPhase(FlightPhase):
     """Follows a recorded track."""
 
     name = "on_track"
@@ -199,7 +199,7 @@ class TrackControl(FlightControl):
         self.kind = kind
         self.modes = GuidanceModes(kind)
         self.state = follower.state
-        self.phase = OnTrack()
+        self.phase = TrackPhase()
         self._route = None
         self._follower = follower
         self._leave = leave
@@ -242,4 +242,4 @@ class TrackControl(FlightControl):
 
     @property
     def _is_on_track(self) -> bool:
-        return isinstance(self.phase, OnTrack)
+        return isinstance(self.phase, TrackPhase)

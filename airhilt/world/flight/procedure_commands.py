@@ -8,7 +8,7 @@ from airhilt.geodesy.wgs84 import Place
 from airhilt.units import KNOT
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.curves import Curve
-from airhilt.world.flight.following import OnTrack
+from airhilt.world.flight.following import TrackPhase
 from airhilt.world.flight.guidance import LateralMode
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final, require_side_step
@@ -198,7 +198,7 @@ class ProcedureCommands:
         phase = control.phase
         modes = control.modes
         lateral: LateralMode | None = None
-        if isinstance(phase, OnTrack):
+        if isinstance(phase, TrackPhase):
             lateral = modes.track(control.state.track_rad)
         elif isinstance(phase, Approach | Orbit | Glide | Flare):
             lateral = phase.final

@@ -10,10 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from airhilt.geodesy.wgs84 import Place, curvature_radii_m, distance_m, earth_centred, offset_m
 from airhilt.scenario.models import OnTrack
@@ -128,6 +127,9 @@ class RecordedTrack:
     def __init__(
         self, points: Sequence[TrackPoint], wheels_m: float, atmosphere: Atmosphere
     ) -> None:
+        # Not at the top: scenarios without a recorded track start without SciPy.
+        from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+
         self._points = points
         self._wheels_m = wheels_m
         self._atmosphere = atmosphere
@@ -147,7 +149,7 @@ class RecordedTrack:
         self._heading = self._first_heading()
 
     @property
-    def _splines(self) -> tuple[CubicHermiteSpline, CubicHermiteSpline, PchipInterpolator]:
+    def _splines(self) -> tuple[Any, Any, Any]:
         return self._latitude, self._longitude, self._altitude
 
     @property
