@@ -16,7 +16,7 @@ import time
 from collections.abc import Iterator
 
 from airhilt.bus.bridge import feed_reports
-from airhilt.messages import AdsbReport
+from airhilt.messages import LiveReport
 from airhilt.world.tracks.mode_s import FrameDecoder
 from airhilt.world.tracks.record import TracksError
 from airhilt.world.tracks.reports import report_of
@@ -55,7 +55,7 @@ class BeastFeed:
                 yield content[CLOCK_AND_LEVEL : CLOCK_AND_LEVEL + LONG_BYTES]
         self._rest = self._rest[end:]
 
-    def reports(self, data: bytes) -> Iterator[AdsbReport]:
+    def reports(self, data: bytes) -> Iterator[LiveReport]:
         """Yield the reports in the next bytes."""
         for frame in self.frames(data):
             row = self._decoder.row(frame.hex(), time.monotonic())

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from airhilt.bus.bridge import feed_reports
-from airhilt.messages import AdsbReport
+from airhilt.messages import LiveReport
 from airhilt.world.tracks.reports import report_of
 from airhilt.world.tracks.sbs import SbsLines
 
@@ -24,7 +24,7 @@ class SbsFeed:
         self._rest = b""
         self._lines = SbsLines()
 
-    def reports(self, data: bytes) -> Iterator[AdsbReport]:
+    def reports(self, data: bytes) -> Iterator[LiveReport]:
         """Yield the reports in the next bytes."""
         *lines, self._rest = (self._rest + data).split(b"\n")
         for line in lines:

@@ -19,7 +19,7 @@ import zenoh
 from airhilt.bus.access import Role
 from airhilt.bus.session import ROOT, close_session, connect_client, find_run
 from airhilt.errors import BusError
-from airhilt.messages import AdsbReport, Clock, Message
+from airhilt.messages import AdsbReport, Clock, LiveReport, Message
 from airhilt.units import SECOND_NS
 
 PATIENCE_S = 30.0
@@ -177,7 +177,7 @@ def serve_reports(
 
 
 def feed_reports(
-    documentation: str | None, port: int, decode: Callable[[bytes], Iterable[AdsbReport]]
+    documentation: str | None, port: int, decode: Callable[[bytes], Iterable[LiveReport]]
 ) -> None:
     """Run a bridge that gives the targets of a receiver to a run, until the run is over.
 
@@ -204,7 +204,7 @@ def feed_reports(
             ):
                 while data := connection.recv(READ_BYTES):
                     for report in decode(data):
-                        publish(f"adsb/{report.icao24}", report)
+                        publish(f"live/{report.icao24}", report)
             time.sleep(RETRY_S)
 
     with exiting_on_error():

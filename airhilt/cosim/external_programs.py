@@ -24,6 +24,7 @@ from airhilt.messages import (
     DroppedMessages,
     LeaveSeat,
     Limit,
+    LiveReport,
     Message,
     PageRefusal,
     PartialTranscript,
@@ -47,7 +48,7 @@ HEARD: Mapping[str, type[Message]] = {
     "asr/*/partial": PartialTranscript,
     "vision/*": Detections,
     "command/*": ActorCommand,
-    "adsb/*": AdsbReport,
+    "live/*": LiveReport,
     PAGE: PageRefusal,
     "tts/*": AdvisoryAudio,
 }
@@ -234,16 +235,17 @@ class ExternalPrograms:
             return
         now_ns = self._director.now_ns
         stamped = message.model_copy(update={"t_ns": now_ns})
-        if isinstance(message, AdsbReport):
-            received = {"t_adsb_in_ns": now_ns, "t_adsb_out_ns": now_ns}
-            stamped = stamped.model_copy(update=received)
         if isinstance(stamped, Advisory) and not self.has_decision:
             self.has_decision = True
             self._context.set_modality("decision", "on")
         self._context.router.heard(key, stamped, UNREGISTERED)
+        if isinstance(stamped, LiveReport):
+            times = {"t_adsb_in_ns": now_ns, "t_adsb_out_ns": now_ns}
+            report = AdsbReport(**stamped.model_dump() | times)
+            self._context.router.publish(f"adsb/{report.icao24}", report)
 
     def _require_allowed(self, key: str, message: Message) -> None:
-        """Complain about an advisory of a worker, a command to a person's actor, or an actor's ADS-B."""
+        """Complain about what is of a worker, of a person at a seat, or of an actor."""
         if isinstance(message, Advisory):
             for name in self._workers:
                 if message.id.startswith(f"{name}-"):
@@ -257,9 +259,9 @@ class ExternalPrograms:
                 f"of who has the seat, on seat/{key.split('/')[1]}/do"
             )
 
-        if isinstance(message, AdsbReport):
+        if isinstance(message, LiveReport):
             actor = self._context.setup.scenario.callsigns.get(message.icao24)
-            if actor is not None or key != f"adsb/{message.icao24}":
+            if actor is not None or key != f"live/{message.icao24}":
                 raise WorkerError(
                     f"a program published on {key!r} a report of {actor or message.icao24}; "
                     "expected one of an aircraft that is not in the scenario, on its own key"
@@ -314,7 +316,7 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
         )
     family, _, rest = key.partition("/")
     kind = HEARD.get(f"{family}/*" if rest else key)
-    if kind not in (ActorCommand, AdsbReport, PageRefusal):
+    if kind not in (ActorCommand, LiveReport, PageRefusal):
         return parse_output(UNREGISTERED, key, data, now_ns)
     try:
         return kind.model_validate_json(data)

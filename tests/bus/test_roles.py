@@ -95,7 +95,7 @@ def try_as(bus: Bus, file: Path) -> tuple[list[str], set[str], set[str]]:
     [
         ("observer", [], set(), set()),
         ("worker", [], set(), {"advisory/ATC", "vision/tower"}),
-        ("operator", ["seat/TOWER", "seat/TOWER/do"], OF_SEATS, {"command/AAL123", "adsb/a1b2c3"}),
+        ("operator", ["seat/TOWER", "seat/TOWER/do"], OF_SEATS, {"command/AAL123"}),
         ("recorder", ["seat/TOWER"], {"truth/state/AAL123", *OF_SEATS}, set()),
     ],
 )

@@ -1,10 +1,10 @@
-"""Turns the rows of a receiver's feed into the ADS-B reports of a run."""
+"""Turns the rows of a receiver's feed into the reports that a run takes."""
 
 from __future__ import annotations
 
 from typing import get_args
 
-from airhilt.messages import AdsbReport, EmitterCategory
+from airhilt.messages import EmitterCategory, LiveReport
 from airhilt.world.tracks.record import SQUAWK, BadRecord, Row, record_of
 
 RECEIVER = "live"
@@ -12,7 +12,7 @@ RECEIVER = "live"
 CATEGORIES = get_args(EmitterCategory)
 
 
-def report_of(row: Row) -> AdsbReport | None:
+def report_of(row: Row) -> LiveReport | None:
     """Return a row as a report; None for one that cannot be right, or has no altitude.
 
     The run sets its times.
@@ -21,7 +21,7 @@ def report_of(row: Row) -> AdsbReport | None:
     if record is None or isinstance(record, BadRecord):
         return None
     track_deg = _number(row, "track_deg") % 360.0
-    return AdsbReport(
+    return LiveReport(
         icao24=record.icao24,
         callsign=record.callsign,
         latitude_deg=record.latitude_deg,
