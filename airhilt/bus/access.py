@@ -24,7 +24,7 @@ BY_CERTIFICATE: Subjects = {CERTIFICATE_NAME.format(role): (role,) for role in R
 PUBLISHED: Mapping[Role, tuple[str, ...]] = {
     "observer": ("page",),
     "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
-    "operator": ("command/*", "page"),
+    "operator": ("command/*", "live/*", "page"),
     "recorder": (),
 }
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""

@@ -9,16 +9,17 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import NamedTuple
 
 import zenoh
 
+from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run, wait_until_over
 from airhilt.errors import BusError
-from airhilt.messages import AdsbReport
+from airhilt.messages import AdsbReport, LiveReport, Message
 from airhilt.units import SECOND_NS
 
 PATIENCE_S = 30.0
@@ -29,6 +30,10 @@ LAST_S = 1.0
 """Time that clients have at the end of a run to take what waits for them, in s."""
 RETRY_S = 1.0
 """Time between two attempts to connect to a program, in s."""
+READ_BYTES = 65_536
+"""Greatest number of bytes that are read from a receiver at a time."""
+Publish = Callable[[str, Message], None]
+"""Publishes a message on a key below the run."""
 
 
 def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
@@ -55,6 +60,7 @@ def relay(
     given: argparse.Namespace,
     heard: Mapping[str, Callable[[bytes], None]],
     heard_raw: Mapping[str, Callable[[bytes, bytes], None]] | None = None,
+    feed: Callable[[Publish], None] | None = None,
 ) -> None:
     """Call functions with the messages of a run until the run is over.
 
@@ -67,6 +73,9 @@ def relay(
         thread of Zenoh.
     heard_raw
         Called with the header and the bytes of each message on keys whose payload is raw bytes.
+    feed
+        Called once, on a thread of its own, with what publishes messages in the run; the program
+        then joins it as an operator.
 
     Raises
     ------
@@ -74,7 +83,8 @@ def relay(
         There is no run at the endpoint, or there are several and none is named; or it does not let
         this program in.
     """
-    session = connect_client(given.connect, PATIENCE_S, given.tls, "observer")
+    role: Role = "observer" if feed is None else "operator"
+    session = connect_client(given.connect, PATIENCE_S, given.tls, role)
 
     def forward(call: Callable[[bytes], None]) -> Callable[[zenoh.Sample], None]:
         return lambda sample: call(sample.payload.to_bytes())
@@ -96,11 +106,27 @@ def relay(
     subscribers = [
         session.declare_subscriber(f"{prefix}/{key}", call) for key, call in calls.items()
     ]
+    if feed is not None:
+        publish = _publishing(session, prefix)
+        threading.Thread(target=feed, args=(publish,), daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt):
         wait_until_over(session, prefix)
     for subscriber in subscribers:
         subscriber.undeclare()  # type: ignore[no-untyped-call]
     close_session(session)
+
+
+def _publishing(session: zenoh.Session, prefix: str) -> Publish:
+    """Return what publishes messages on the keys of a run."""
+
+    def publish(key: str, message: Message) -> None:
+        session.put(
+            f"{prefix}/{key}",
+            message.model_dump_json(),
+            congestion_control=zenoh.CongestionControl.BLOCK,
+        )
+
+    return publish
 
 
 @contextlib.contextmanager
@@ -143,6 +169,41 @@ def serve_reports(
             {"adsb/*": lambda data: feed.send(encode(AdsbReport.model_validate_json(data)))},
         )
         feed.close()
+
+
+def feed_reports(
+    documentation: str | None, port: int, decode: Callable[[bytes], Iterable[LiveReport]]
+) -> None:
+    """Run a bridge that gives the targets of a receiver to a run, until the run is over.
+
+    Parameters
+    ----------
+    documentation
+        Docstring of the bridge.
+    port
+        Default of the port of the receiver.
+    decode
+        Returns the reports in the next bytes of the receiver.
+    """
+    parser = options(documentation, port)
+    parser.add_argument(
+        "--from", dest="host", default="127.0.0.1", metavar="HOST", help="default: 127.0.0.1"
+    )
+    given = parser.parse_args()
+
+    def feed(publish: Publish) -> None:
+        while True:
+            with (
+                contextlib.suppress(OSError),
+                socket.create_connection((given.host, given.port)) as connection,
+            ):
+                while data := connection.recv(READ_BYTES):
+                    for report in decode(data):
+                        publish(f"live/{report.icao24}", report)
+            time.sleep(RETRY_S)
+
+    with exiting_on_error():
+        relay(given, {}, feed=feed)
 
 
 def datagrams(host: str, port: int) -> Callable[[bytes], None]:

@@ -58,7 +58,8 @@ def report_of(actor: Actor, asked: str, field: Field, style: Style) -> str | Non
         case ["mach", *_] if isinstance(actor.body, Aircraft):
             return speak_mach(round(actor.body.state.mach, 2), style)
         case ["fuel" | "remaining", *_] if isinstance(actor.body, Aircraft):
-            return f"fuel remaining {_pounds(actor.body.fuel_kg, style)}"
+            fuel_kg = actor.body.fuel_kg
+            return None if fuel_kg is None else f"fuel remaining {_pounds(fuel_kg, style)}"
         case ["field" | "airport" | "aerodrome" | "runway" as seen, "in", "sight"]:
             return f"{seen} in sight" if _distance(actor, field)[0] < IN_SIGHT_M else None
         case ["traffic", "in", "sight"]:

@@ -472,7 +472,7 @@ class Approaches:
             return self._plan_balked_landing(climb_to_m)
         is_above = climb_to_m > aircraft.state.altitude_m
         to_m = climb_to_m if is_above else runways.usual_climb_m()
-        if self._phase in APPROACHING:
+        if runways.is_arriving:
             return partial(runways.break_off, to_m)
         if self._phase == "go_around" or runways.bound_runway is not None:
 

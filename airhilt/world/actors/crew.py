@@ -45,7 +45,7 @@ from airhilt.messages import (
     Recommendation,
     Turn,
 )
-from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
+from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels, OnTrack
 from airhilt.surveillance.radar import discrete_code
 from airhilt.surveillance.transponders import EMERGENCY_CODES, GENERAL_EMERGENCY
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
@@ -70,12 +70,10 @@ from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel, Respons
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.actors.traffic import Traffic
 from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.flight.following import GEAR_DOWN_BELOW_M
 from airhilt.world.flight.procedures.en_route import EmergencyDescent
 from airhilt.world.site import ScenarioSite
 
-GEAR_DOWN_BELOW_M = 600.0
-"""Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
-11 km before the threshold."""
 ENDS_DEPARTURE = (
     TaxiCommand,
     TaxiToCommand,
@@ -146,8 +144,10 @@ class Crew:
         self._reactions = ReactionModel(spec.callsign, responses, spec.pilot, seed)
         self._site = site
         self._envelope = Envelope(aircraft, site.ground_m)
-        self._return_lateral: Callable[[], None] = partial(
-            aircraft.en_route.hold_track, aircraft.state.track_rad
+        self._return_lateral: Callable[[], None] = (
+            aircraft.en_route.resume_route
+            if isinstance(spec.initial, OnTrack)
+            else partial(aircraft.en_route.hold_track, aircraft.state.track_rad)
         )
         self._altitude_before_m = aircraft.target_altitude_m
         self._followed: dict[str, int] = {}

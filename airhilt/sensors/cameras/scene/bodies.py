@@ -21,7 +21,7 @@ from airhilt.units import SECOND_NS
 from airhilt.world.actors.actor import Actor
 from airhilt.world.flight import Aircraft
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
-from airhilt.world.mover import carried_on
+from airhilt.world.mover import ABSENT, carried_on
 from airhilt.world.surface.kinds import load_kind
 
 MOST_ACTORS = int(np.iinfo(np.uint8).max)
@@ -138,6 +138,8 @@ def states_of(
     elapsed_s = (now_ns - ticked_ns) / SECOND_NS
     found = []
     for actor in actors:
+        if actor.body.ended in ABSENT:
+            continue
         body, callsign, shape = actor.body, actor.spec.callsign, actor.mesh(now_ns / SECOND_NS)
         state = carried_on(body.state, elapsed_s if body.ended is None else 0.0)
         east, north = local_frame.to_local((state.latitude_rad, state.longitude_rad))
