@@ -41,6 +41,68 @@ def changed_blocks(before: Picture, after: Picture) -> Blocks:
     return blocks
 
 
+def blocks_beyond_motion(before: Picture, after: Picture, motion_px: tuple[int, int]) -> Blocks:
+    """Return the blocks with a pixel whose colour was not within a pixel of its place before.
+
+    What comes into the picture at its edges does not count.
+
+    Parameters
+    ----------
+    motion_px
+        Way right and down from places in the picture after to the same places before.
+    """
+    rows, columns, colours = after.shape
+    right, down = motion_px
+    blocks = np.zeros((-(-rows // GRID_PX), -(-columns // GRID_PX)), dtype=bool)
+    if abs(right) >= columns or abs(down) >= rows:
+        return ~blocks
+    old = before[max(down, 0) : rows + min(down, 0), max(right, 0) : columns + min(right, 0)]
+    place = (
+        slice(max(-down, 0), rows - max(down, 0)),
+        slice(max(-right, 0), columns - max(right, 0)),
+    )
+    new = after[place]
+    differ = np.flatnonzero((old != new).reshape(len(new), -1).any(axis=1))
+    if not len(differ):
+        return blocks
+    part = slice(max(int(differ[0]) - 1, 0), int(differ[-1]) + 2)
+    old, new = old[part], new[part]
+    low, high = _about_each(np.minimum, old), _about_each(np.maximum, old)
+    beyond = np.zeros((rows, columns, colours), dtype=np.uint8)
+    beyond[place][part] = np.maximum(np.maximum(low, new) - new, np.maximum(high, new) - high)
+    return _changed(beyond, blocks)
+
+
+def _changed(change: Picture, blocks: Blocks) -> Blocks:
+    """Mark the blocks in which any pixel has changed by `LEAST_CHANGE` or more."""
+    starts = np.arange(0, change.shape[1] * change.shape[2], GRID_PX * change.shape[2])
+    for index, strip in enumerate(blocks):
+        part = change[index * GRID_PX : (index + 1) * GRID_PX]
+        most = part.reshape(len(part), -1).max(axis=0)
+        strip[:] = np.maximum.reduceat(most, starts) >= LEAST_CHANGE
+    return blocks
+
+
+def _about_each(pick: np.ufunc, picture: Picture) -> Picture:
+    """Return the extreme of each pixel and its eight neighbours."""
+    column = picture.copy()
+    pick(column[1:], picture[:-1], out=column[1:])
+    pick(column[:-1], picture[1:], out=column[:-1])
+    square = column.copy()
+    pick(square[:, 1:], column[:, :-1], out=square[:, 1:])
+    pick(square[:, :-1], column[:, 1:], out=square[:, :-1])
+    return square
+
+
+def blocks_of(boxes: Sequence[Box], rows: int, columns: int) -> Blocks:
+    """Return the blocks that boxes touch; they lie within the picture."""
+    blocks = np.zeros((-(-rows // GRID_PX), -(-columns // GRID_PX)), dtype=bool)
+    for box in boxes:
+        left, top, right, bottom = (round(side) // GRID_PX for side in _about([box]))
+        blocks[top:bottom, left:right] = True
+    return blocks
+
+
 def windows_about(blocks: Blocks, boxes: Sequence[Box], rows: int, columns: int) -> list[Tile]:
     """Return windows about all changes, on the grid, none of which touches another.
 
