@@ -16,6 +16,11 @@ from airhilt.messages import Box
 
 LEAST_CHANGE = 2
 """Least change of a pixel, in levels of 255."""
+LEAST_BEYOND_MOTION = 8
+"""Likewise beyond what the motion of a camera explains: less than the 5 % of full scale below which
+a body does not count (docs/detector.md)."""
+LEAST_PIXELS = 3
+"""Least number of such pixels in a block: edges that are finer than a pixel come and go."""
 MARGIN_PX = 48
 """Margin between a change and the edges of its window, in pixels, unless the picture ends there."""
 MARGIN_BLOCKS = MARGIN_PX // GRID_PX - 1
@@ -42,7 +47,7 @@ def changed_blocks(before: Picture, after: Picture) -> Blocks:
 
 
 def blocks_beyond_motion(before: Picture, after: Picture, motion_px: tuple[int, int]) -> Blocks:
-    """Return the blocks with a pixel whose colour was not within a pixel of its place before.
+    """Return the blocks with pixels whose colours were not within a pixel of their places before.
 
     What comes into the picture at its edges does not count.
 
@@ -51,7 +56,7 @@ def blocks_beyond_motion(before: Picture, after: Picture, motion_px: tuple[int, 
     motion_px
         Way right and down from places in the picture after to the same places before.
     """
-    rows, columns, colours = after.shape
+    rows, columns, _ = after.shape
     right, down = motion_px
     blocks = np.zeros((-(-rows // GRID_PX), -(-columns // GRID_PX)), dtype=bool)
     if abs(right) >= columns or abs(down) >= rows:
@@ -68,18 +73,13 @@ def blocks_beyond_motion(before: Picture, after: Picture, motion_px: tuple[int, 
     part = slice(max(int(differ[0]) - 1, 0), int(differ[-1]) + 2)
     old, new = old[part], new[part]
     low, high = _about_each(np.minimum, old), _about_each(np.maximum, old)
-    beyond = np.zeros((rows, columns, colours), dtype=np.uint8)
-    beyond[place][part] = np.maximum(np.maximum(low, new) - new, np.maximum(high, new) - high)
-    return _changed(beyond, blocks)
-
-
-def _changed(change: Picture, blocks: Blocks) -> Blocks:
-    """Mark the blocks in which any pixel has changed by `LEAST_CHANGE` or more."""
-    starts = np.arange(0, change.shape[1] * change.shape[2], GRID_PX * change.shape[2])
+    change = np.maximum(np.maximum(low, new) - new, np.maximum(high, new) - high)
+    beyond = np.zeros((rows, columns), dtype=bool)
+    beyond[place][part] = (change >= LEAST_BEYOND_MOTION).any(axis=2)
+    starts = np.arange(0, columns, GRID_PX)
     for index, strip in enumerate(blocks):
-        part = change[index * GRID_PX : (index + 1) * GRID_PX]
-        most = part.reshape(len(part), -1).max(axis=0)
-        strip[:] = np.maximum.reduceat(most, starts) >= LEAST_CHANGE
+        count = beyond[index * GRID_PX : (index + 1) * GRID_PX].sum(axis=0)
+        strip[:] = np.add.reduceat(count, starts) >= LEAST_PIXELS
     return blocks
 
 

@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 MOST_IN_WINDOWS = 0.5
 """Share of a tile in windows above which the detector looks at the whole tile."""
+MOST_OF_BODIES = 0.2
+"""Share of a tile in windows above which its camera, if it is carried, must have moved."""
 SOONEST_WHOLE_NS = 3 * SECOND_NS // 20
 """Least time, in ns, between two looks at the whole of a tile if its camera moves."""
 LATEST_WHOLE_NS = SECOND_NS
@@ -253,12 +255,17 @@ class Gate:
         self, detector: SeesParts, last: _Looked, shot: Shot, pixels: Picture, plan: _Plan
     ) -> Look:
         old, (rows, columns) = last.pixels.read(), pixels.shape[:2]
-        if np.array_equal(old, pixels) and not (last.look.is_partial and plan.is_overdue):
-            return last.look._replace(windows=())
-        if plan.is_overdue:
+        changed = changed_blocks(old, pixels)
+        if plan.is_overdue and (last.look.is_partial or changed.any()):
             return self._anew(shot, pixels)
+        if not changed.any():
+            return last.look._replace(windows=())
         before = last.look.found
         places = [*plan.expected, *(one.box for one in before)]
+        windows = windows_about(changed, places, rows, columns)
+        if _are_small(windows, rows, columns, MOST_OF_BODIES):
+            found = _with_windows(detector, before, pixels, windows)
+            return Look(tuple(windows), found, last.look.is_partial)
         followed = blocks_of(places, rows, columns)
         new = blocks_beyond_motion(old, pixels, plan.motion_px)
         for blocks in (new | followed, followed):
@@ -308,9 +315,11 @@ def _motion_px(before: CameraView, after: CameraView) -> tuple[int, int]:
     return round(column - lens.centre_px[0]), round(row - lens.centre_px[1])
 
 
-def _are_small(windows: Sequence[Tile], rows: int, columns: int) -> bool:
-    """Return whether windows are so small that they are looked at instead of the whole tile."""
-    return sum(each.height * each.width for each in windows) <= MOST_IN_WINDOWS * rows * columns
+def _are_small(
+    windows: Sequence[Tile], rows: int, columns: int, most: float = MOST_IN_WINDOWS
+) -> bool:
+    """Return whether windows have no more than a share of a tile."""
+    return sum(each.height * each.width for each in windows) <= most * rows * columns
 
 
 def _with_windows(
