@@ -25,7 +25,7 @@ from airhilt.host.library import nearest
 LIMIT = "AIRHILT_CACHE_LIMIT_MB"
 """Environment variable with the greatest size of all entries together, in MB."""
 DEFAULT_LIMIT_MB = 2000.0
-KINDS = ("backgrounds", "detections", "pictures", "voices")
+KINDS = ("backgrounds", "detections", "landscapes", "pictures", "voices")
 """Kinds of entries that AIRHILT keeps itself; each is a folder in `cache_folder`."""
 ENTRY = re.compile(r"[0-9a-f]{64}.*\.(entry|partial)")
 """Name of an entry, and of one that is being written."""

@@ -10,9 +10,10 @@ from typing import Any
 
 import click
 
-from airhilt.cli.output import counted, echo
+from airhilt.cli.output import echo
 from airhilt.cli.parameters import FILE
 from airhilt.errors import RunFolderError, ScenarioError
+from airhilt.host.text import counted
 
 SHOWN_NOTES = 20
 """Number of notes on what is left out that are shown."""

@@ -11,10 +11,10 @@ from airhilt.errors import CameraError
 from airhilt.host.files import replace_file
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.frame import CameraPicture
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
-from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors import build_actors
 from airhilt.world.loading import draw

@@ -26,11 +26,11 @@ from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Daylight, Weather
 from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.dataset.placement import cast
 from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, station_of
 from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene.builder import light_of, open_scene_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
