@@ -209,6 +209,8 @@ class Answer:
             read_back = tuple(each for each in read_back if each.action != "altitude")
         if (wrong := wrongly_done(read_back, self.callsign, self.done)) is not None:
             return wrong
+        if not read_back and "say again" in self.words:
+            return ""  # It asks about all of the call.
         told = {each.action for each in read_back}
         missing = [each for each in given if each.action not in told]
         if is_report(self.words):

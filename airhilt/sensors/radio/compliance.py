@@ -29,7 +29,7 @@ from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
 from airhilt.sensors.radio.stations import SAY_FREQUENCY
-from airhilt.world.actors.orders import Order, Subject, orders_of, subject_of
+from airhilt.world.actors.orders import TO_A_RUNWAY, Order, Subject, orders_of, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
 COMPLY_AFTER_S = 2.0
@@ -65,6 +65,8 @@ class _Answer:
     commands: dict[Command, Condition | None] = field(default_factory=dict)
     accepted: list[Order] = field(default_factory=list)
     unable: list[str] = field(default_factory=list)
+    undone: dict[Command, str] = field(default_factory=dict)
+    """Why commands are not done."""
     stops: bool = False
     """True if it stops at once, and so does not move for the same call."""
     refused: dict[Subject, str | None] = field(default_factory=dict)
@@ -150,6 +152,8 @@ class Compliance:
 
     def _answer_order(self, actor: str, order: Order, answer: _Answer) -> None:
         """Add what an actor does of an order of its call, or why it does nothing of it."""
+        if order.after in answer.undone and isinstance(order.command, TO_A_RUNWAY):
+            order = replace(order, when=None)  # It does not wait for what is not done.
         why = order.unable or order.question or self._contradicts(actor, order.instruction)
         if why is None and order.command is not None:
             why = self._why_refused(actor, order, answer)
@@ -157,6 +161,8 @@ class Compliance:
                 answer.refused[subject_of(order.command)] = why
         if why is not None:
             answer.unable.append(why)
+            if order.command is not None:
+                answer.undone[order.command] = why
             return
         answer.accepted.append(order)
         if order.command is not None and not self._keeps(actor, order.instruction):
@@ -172,6 +178,8 @@ class Compliance:
         command = order.command
         if command is None or any(isinstance(each, GoAroundCommand) for each in answer.commands):
             return None
+        if order.when is not None and order.after in answer.undone:
+            return answer.undone[order.after]
         subject = subject_of(command)
         is_move = subject == "surface" and not isinstance(command, STOPPING)
         if answer.stops and is_move and order.when is None:

@@ -141,6 +141,8 @@ class Order:
     """What the actor asks before it can be carried out; empty if nothing is missing."""
     when: Condition | None = None
     """Condition that the actor waits for; None: it carries it out now."""
+    after: Command | None = None
+    """Command of the same call for whose end it waits, which nobody had to say."""
     part_of: Instruction | None = None
     """Clearance in the same call that has it as a detail; it is done or refused with that."""
     alone: Command | None = None
@@ -253,9 +255,10 @@ def _waiting(order: Order, orders: Sequence[Order], callsign: str) -> Order:
     if isinstance(command, AFTER_LANDING):
         after = _last([each.command for each in before], LandCommand, VacateCommand, TurnAtCommand)
     elif isinstance(command, ContactCommand) and isinstance(last, AFTER_LANDING):
-        return replace(order, when=_waiting(before[-1], orders, callsign).when)
+        waits = _waiting(before[-1], orders, callsign)
+        return replace(order, when=waits.when, after=waits.after)
     when = None if after is None else done(after, callsign)
-    return order if when is None else replace(order, when=when)
+    return order if when is None else replace(order, when=when, after=after)
 
 
 def _last(commands: Sequence[Command | None], *types: type[BaseModel]) -> Command | None:
