@@ -102,13 +102,12 @@ def connect(
     taken = {worker.description.modality for worker in workers}
     assistant = _assistant(options, recorded.is_replay, "decision" in taken, programs)
     options = options.model_copy(update={"assistant": assistant})
+    require = _no_service(options) if recorded.is_replay else lambda _: None
     made = [
         _participant(worker, "in process", is_of_user(options, worker.description.modality))
-        for worker in reference_workers(options, setup.scenario, taken)
+        for worker in reference_workers(options, setup.scenario, taken, require)
     ]
-    if recorded.is_replay:
-        _require_no_service(made, options)
-    else:
+    if not recorded.is_replay:
         used = engines_in_use(options, (), made)
         for sentence in other_machines(options, used):
             notice(sentence)
@@ -147,19 +146,21 @@ def _assistant(
     return assistant
 
 
-def _require_no_service(workers: Sequence[Participant], options: Options) -> None:
-    """Complain about a worker of a replay that would ask a service.
+def _no_service(options: Options) -> Callable[[Modality], None]:
+    """Return what complains about a worker of a replay that would ask a service.
 
     A run records what each service answers, so that its replay sends nothing, and no key, to the
     addresses in a record that may be somebody else's.
     """
-    for worker in workers:
-        if is_remote(options, worker.description.modality):
+
+    def require(modality: Modality) -> None:
+        if is_remote(options, modality):
             raise WorkerError(
-                f"worker {worker.description.name!r}: the record names a service for it, and has "
-                "none of its answers; expected a record that was not changed: a replay asks no "
-                "service"
+                f"worker for {modality}: the record names a service for it, and has none of its "
+                "answers; expected a record that was not changed: a replay asks no service"
             )
+
+    return require
 
 
 def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:

@@ -83,7 +83,7 @@ def test_each_passes_the_check_and_describes_itself(kind: ServiceKind) -> None:
     ("kind", "body", "said"),
     [
         ("asr", b"RIFF", "file: Field required"),
-        ("tts", b"{}", "input: Field required"),
+        ("tts", b"{}", "input, voice: Field required"),
         ("vision", b'{"image": "%%", "ts_ms": 0, "camera_id": "a"}', "expected PNG in base64"),
         ("decision", b"null", "Input should be an object"),
     ],

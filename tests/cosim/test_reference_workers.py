@@ -23,7 +23,7 @@ CAUTION = Advisory(
     kind="runway_conflict", severity=Severity.CAUTION, traffic=("AAL123",), message="Go around",
     evidence=Evidence(sources=("adsb",)), t_ready_ns=4_000,
 )  # fmt: skip
-SERVICES = {"asr": SERVICE, "tts": SERVICE, "detector": SERVICE}
+SERVICES = {"asr": SERVICE, "tts": SERVICE}
 
 
 def team(
@@ -32,7 +32,7 @@ def team(
     taken: Collection[Modality] = (),
     **options: Any,
 ) -> list[WorkerDescription]:
-    """Return the workers of a run in which all but the decision are services."""
+    """Return the workers of a run in which recogniser and voice are services."""
     given = Options(assistant=assistant, **{**SERVICES, **options})
     scenario = load("s01b_nominal")
     radio = scenario.radio.model_copy(update={"topology": topology})

@@ -29,6 +29,7 @@ from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
 from airhilt.sensors.radio.stations import SAY_FREQUENCY
+from airhilt.world.actors.air_phases import VERTICAL
 from airhilt.world.actors.orders import TO_A_RUNWAY, Order, Subject, orders_of, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
@@ -297,6 +298,8 @@ class Compliance:
             return self._stations.unknown(command.unit, command.frequency_khz)
         if when is not None:
             return self._world.never(when)
+        if isinstance(command, VERTICAL) and self._stations.is_approaching(actor):
+            return "unable, on the approach"
         return self._world.refusal(actor, command)
 
     def _told(self, actor: str, decision: Decision) -> Decision:

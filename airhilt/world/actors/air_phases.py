@@ -30,7 +30,6 @@ from airhilt.commands import (
     VerticalRateCommand,
 )
 from airhilt.units import FOOT
-from airhilt.world.actors.runway_operations import APPROACHING
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent
 
@@ -77,10 +76,8 @@ def refusal_in_phase(aircraft: Aircraft, command: Command) -> str | None:
         command.altitude_ft * FOOT >= state.altitude_m
     ):
         return f"unable, below {command.altitude_ft:g} ft already"
-    if phase in APPROACHING and isinstance(command, VERTICAL):
-        return "unable, on the approach"
     is_low = phase in ("approach", "glide") and state.height_agl_m < LAST_TURN_M
-    if is_low and isinstance(command, LATERAL):
+    if is_low and isinstance(command, (*LATERAL, *VERTICAL)):
         return "unable, on short final"
     if phase == EmergencyDescent.name:
         return _in_emergency_descent(aircraft, command)

@@ -88,7 +88,7 @@ class Flight:
 
 
 def crew_in(aircraft: Aircraft) -> Flight:
-    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL1", pilot=Reactions())
+    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL1", initial=None, pilot=Reactions())
     return Flight(Crew(spec, aircraft, kdca(), 1), aircraft, [])
 
 
