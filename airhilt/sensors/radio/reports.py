@@ -9,7 +9,7 @@ from typing import NamedTuple
 from airhilt.geodesy.wgs84 import Place, distance_and_azimuth
 from airhilt.phraseology.numbers import Style, speak_digits, speak_group, speak_thousands
 from airhilt.phraseology.say import speak_altitude, speak_heading, speak_runway, speak_speed
-from airhilt.phraseology.spoken_actions import with_digits
+from airhilt.phraseology.spoken_actions import speak_place
 from airhilt.phraseology.spoken_forms import is_registration
 from airhilt.phraseology.spoken_values import speak_mach, speak_taxiway
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, POUND
@@ -89,7 +89,7 @@ def _position_on_ground(actor: Actor, field: Field, style: Style) -> str | None:
     if runway := layout.runway_at(here):
         return f"on {speak_runway(runway, style)}"
     if stand := layout.stand_at(here):
-        return f"at {with_digits(stand.replace('_', ' '), style)}"
+        return f"at {speak_place(stand.replace('_', ' '), style)}"
     taxiway = layout.taxiway_at(here)
     if taxiway is None:
         return None
