@@ -17,7 +17,7 @@ from typing import NamedTuple
 import zenoh
 
 from airhilt.bus.session import ROOT, close_session, connect_client
-from airhilt.errors import BusError
+from airhilt.errors import AirhiltError, BusError
 from airhilt.messages import AdsbReport, Clock
 from airhilt.units import SECOND_NS
 
@@ -110,10 +110,10 @@ def relay(
 
 @contextlib.contextmanager
 def exiting_on_error() -> Iterator[None]:
-    """Print a `BusError` as one line and exit with its code."""
+    """Print an `AirhiltError` as one line and exit with its code."""
     try:
         yield
-    except BusError as error:
+    except AirhiltError as error:
         sys.stderr.write(f"error: {error}\n")
         sys.exit(error.exit_code)
 

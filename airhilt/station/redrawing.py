@@ -26,7 +26,7 @@ from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import BodyState, has_landing_lights_on
-from airhilt.station.pictures import encoded
+from airhilt.record.kept_pictures import encoded
 from airhilt.units import DEGREE
 from airhilt.world.actors.crew import mesh_at
 from airhilt.world.site import ScenarioSite

@@ -18,7 +18,7 @@ from airhilt.record.pictures import PictureName
 from airhilt.report.frequency import read_frequency
 from airhilt.station.app import debrief_app
 from airhilt.station.debrief import Debrief
-from airhilt.station.pictures import kept_pictures
+from airhilt.record.kept_pictures import kept_pictures
 from camera_run import camera_run
 from stations import asked
 
