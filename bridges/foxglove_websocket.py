@@ -34,8 +34,9 @@ from airhilt.record.kept_pictures import encoded
 from airhilt.units import SECOND_NS
 
 with exiting_on_error():
-    from airhilt.displays.foxglove_channels import FoxgloveChannels
     from foxglove import Context, start_server
+
+    from airhilt.displays.foxglove_channels import FoxgloveChannels
 
 SHOWN: dict[str, type[Message]] = {
     "adsb/*": AdsbReport,

@@ -111,9 +111,7 @@ class FoxgloveChannels:
         """Give out a picture, and the lens that it was taken with."""
         taken, view, pinhole = self.timestamp(frame.t_frame_ns), frame.view, Pinhole(frame.view)
         (x, y), focal = pinhole.centre_px, pinhole.focal_px
-        picture = CompressedImage(
-            timestamp=taken, frame_id=frame.camera, data=jpeg, format="jpeg"
-        )
+        picture = CompressedImage(timestamp=taken, frame_id=frame.camera, data=jpeg, format="jpeg")
         calibration = CameraCalibration(
             timestamp=taken,
             frame_id=frame.camera,

@@ -17,9 +17,9 @@ import numpy.typing as npt
 from pydantic import ValidationError
 
 from airhilt.errors import RunFolderError, first_problem
-from airhilt.geodesy.wgs84 import Place
+from airhilt.geodesy.wgs84 import horizontal_axes, vertical
 from airhilt.imaging.pinhole import Pinhole
-from airhilt.imaging.view import Matrix, Pose
+from airhilt.imaging.view import Matrix, Pose, attitude
 from airhilt.messages import ActorTruth, CameraView
 from airhilt.record import Run
 from airhilt.scenario import Scenario
@@ -88,13 +88,16 @@ class Scene:
         }
         self._local_frame = local_frame_of(self.site)
 
-    @property
-    def begins_at(self) -> datetime:
-        """Time of day at which the run begins: that of its daylight, by the mean sun."""
+    def time_of_day(self, t_ns: int) -> str:
+        """Return a time of the run in UTC, by ISO 8601.
+
+        The run begins at the time of its daylight, by the mean sun.
+        """
         daylight = self._scenario.daylight
         hours = daylight.solar_time_h - self.site.centre.lon_deg * HOURS_A_DEGREE
         midnight = datetime.combine(daylight.date, time(tzinfo=UTC))
-        return midnight + timedelta(seconds=round(hours * 3600.0))
+        at = midnight + timedelta(seconds=round(hours * 3600.0), microseconds=t_ns // 1000)
+        return at.isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
     def outlines(self) -> Iterator[Outline]:
         """Yield the outlines of the airport; none en route."""
@@ -110,13 +113,9 @@ class Scene:
             corners = layout.outline(building.footprint)
             yield Outline(building.name, "building", [*corners, corners[0]])
 
-    def place(self, point: Local) -> Place:
-        """Return latitude and longitude of a point of the ground, in radians."""
-        return self._local_frame.to_place(*point)
-
     def degrees(self, point: Local) -> tuple[float, float]:
         """Return latitude and longitude of a point of the ground, in degrees."""
-        latitude, longitude = self.place(point)
+        latitude, longitude = self._local_frame.to_place(*point)
         return latitude / DEGREE, longitude / DEGREE
 
     def pose(self, state: ActorTruth) -> Pose:
@@ -153,6 +152,14 @@ class Scene:
             (latitude_deg * DEGREE, longitude_deg * DEGREE)
         )
         return east_m, north_m, up_m
+
+
+def attitude_on_earth(state: ActorTruth) -> Matrix:
+    """Return the rotation from the axes of an actor (right, ahead, up) to Earth-centred ones."""
+    place = state.latitude_deg * DEGREE, state.longitude_deg * DEGREE
+    axes = np.column_stack((*horizontal_axes(place), vertical(place)))
+    angles = state.heading_deg * DEGREE, state.pitch_deg * DEGREE, state.roll_deg * DEGREE
+    return np.asarray(axes @ attitude(*angles))
 
 
 def quaternion(rotation: Matrix) -> tuple[float, float, float, float]:

@@ -5,7 +5,8 @@ Times are those of the run, as in ``log.mcap``.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,10 @@ with Package("foxglove-sdk", "foxglove").importing():
 WORLD, TRANSFORMS, SCENE = "world", "/tf", "/scene"
 LINE_PX = 2.0
 NAME_SIZE_PX = 14.0
+SEEN_FROM_M = 500.0
+"""Distance of the eye from the first actor, in m."""
+FARTHEST_M = 200_000.0
+"""Greatest distance that is drawn, in m."""
 NAME_ABOVE_M = 12.0
 """Height of an actor's name above its reference point, in m."""
 
@@ -57,23 +62,19 @@ def write(run: Result, out: Path) -> list[Path]:
             match message:
                 case ActorTruth():
                     moved = _transform(shown, message.t_ns, message.actor, scene.pose(message))
-                    shown.give_out(
-                        channels.FrameTransformsChannel, TRANSFORMS, moved, message.t_ns
-                    )
+                    shown.give_out(channels.FrameTransformsChannel, TRANSFORMS, moved, message.t_ns)
                 case CameraFrame(encoding="rgb8") if jpeg := pictures.jpeg(message):
                     cameras[message.camera] = None
                     pose = scene.camera_pose(message.view)
                     moved = _transform(shown, message.t_frame_ns, message.camera, pose)
-                    shown.give_out(
-                        channels.FrameTransformsChannel, TRANSFORMS, moved, message.t_ns
-                    )
+                    shown.give_out(channels.FrameTransformsChannel, TRANSFORMS, moved, message.t_ns)
                     shown.show_picture(message, jpeg)
                 case Transmission() if pcm := recorded_sound(run, message):
                     frequencies[message.frequency_khz] = None
                     shown.show_sound(message, pcm, message.t_tx_ns)
             if not isinstance(message, dict):
                 shown.show(message)
-    layout.write_text(_layout(scene.actors, cameras, frequencies).to_json())
+    layout.write_text(_layout([*scene.actors], cameras, frequencies).to_json())
     return [mcap, layout]
 
 
@@ -108,8 +109,7 @@ def _area(outline: Outline) -> dict[str, Any]:
     colour = _colour(AREA_COLOURS[outline.area])
     points = [Point3(x=x, y=y, z=0.0) for x, y in outline.points]
     if outline.area == "runway":
-        fan = [point for pair in zip(points[1:-2], points[2:-1], strict=True)
-               for point in (points[0], *pair)]  # fmt: skip
+        fan = [p for pair in pairwise(points[1:-1]) for p in (points[0], *pair)]
         return {"triangles": [TriangleListPrimitive(points=fan, color=colour)]}
     line = LinePrimitive(
         type=LinePrimitiveLineType.LineStrip,
@@ -154,13 +154,17 @@ def _colour(rgb: tuple[int, int, int]) -> Color:
 
 
 def _layout(
-    actors: Iterable[str], cameras: Iterable[str], frequencies: Iterable[int]
+    actors: Sequence[str], cameras: Iterable[str], frequencies: Iterable[int]
 ) -> layouts.Layout:
     """Return a layout that shows map, 3-D, cameras, plots, radio and log at once."""
     three_d = layouts.ThreeDeePanel(
         config=layouts.ThreeDeeConfig(
             fixed_frame=WORLD,
-            follow_tf=WORLD,
+            follow_tf=actors[0],
+            follow_mode="follow-position",
+            camera_state=layouts.ThreeDeeCameraState(
+                distance=SEEN_FROM_M, phi=60.0, near=1.0, far=FARTHEST_M
+            ),
             topics={SCENE: layouts.BaseRendererSceneUpdateTopicSettings(visible=True)},
         )
     )
@@ -171,7 +175,9 @@ def _layout(
                 image_mode=layouts.ImageModeConfig(
                     image_topic=f"/camera/{camera}/frame",
                     calibration_topic=f"/camera/{camera}/calibration",
-                    annotations={f"/vision/{camera}": layouts.ImageAnnotationSettings(visible=True)},
+                    annotations={
+                        f"/vision/{camera}": layouts.ImageAnnotationSettings(visible=True)
+                    },
                 )
             ),
         )
@@ -194,7 +200,7 @@ def _layout(
     return layouts.Layout(content=_split("row", [_split("column", each) for each in columns]))
 
 
-def _plot(title: str, actors: Iterable[str], value: str) -> layouts.PlotPanel:
+def _plot(title: str, actors: Sequence[str], value: str) -> layouts.PlotPanel:
     series = [
         layouts.PlotSeries(value=f"{truth_topic(actor)}.{value}", label=actor, enabled=True)
         for actor in actors
