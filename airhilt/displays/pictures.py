@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from airhilt.engines import Package
 from airhilt.messages import CameraFrame
@@ -12,6 +13,9 @@ from airhilt.record.kept_pictures import encoded, kept_pictures
 from airhilt.record.overlay import Overlay
 from airhilt.record.run import result_problem
 from airhilt.units import SECOND_NS
+
+if TYPE_CHECKING:
+    from av import VideoFrame
 
 PYAV = Package("av", "video")
 SAME_NS = 1_000_000
@@ -60,9 +64,10 @@ class _Video:
             return None
         return encoded(self._overlay.picture_in(self._next[1].to_image()))
 
-    def _decoded(self, path: Path) -> Iterator[tuple[int, object]]:
+    def _decoded(self, path: Path) -> Iterator[tuple[int, VideoFrame]]:
         with PYAV.importing():
             import av
         with av.open(str(path)) as container:
             for frame in container.decode(video=0):
-                yield round(frame.pts * frame.time_base * SECOND_NS), frame
+                assert frame.time is not None
+                yield round(frame.time * SECOND_NS), frame

@@ -12,7 +12,7 @@ from typing import Any
 
 from airhilt.displays.foxglove_channels import LOG, FoxgloveChannels, truth_topic
 from airhilt.displays.pictures import RecordedPictures
-from airhilt.displays.scene import AREA_COLOURS, Outline, Position, Scene, quaternion, srgb_colours
+from airhilt.displays.scene import AREA_COLOURS, Outline, Scene, quaternion, srgb_colours
 from airhilt.displays.sound import recorded_sound
 from airhilt.engines import Package
 from airhilt.imaging.view import Pose
@@ -124,7 +124,7 @@ def _area(outline: Outline) -> dict[str, Any]:
 def _actor(scene: Scene, actor: str) -> SceneEntity:
     mesh = scene.mesh(actor)
     body = TriangleListPrimitive(
-        points=[_point(corner) for corner in mesh.corners.reshape(-1, 3).tolist()],
+        points=[Point3(x=x, y=y, z=z) for x, y, z in mesh.corners.reshape(-1, 3).tolist()],
         colors=[colour for each in srgb_colours(mesh).tolist() for colour in [_colour(each)] * 3],
     )
     name = TextPrimitive(
@@ -138,11 +138,6 @@ def _actor(scene: Scene, actor: str) -> SceneEntity:
         text=actor,
     )
     return SceneEntity(frame_id=actor, id=actor, frame_locked=True, triangles=[body], texts=[name])
-
-
-def _point(place: Position) -> Point3:
-    x, y, z = place
-    return Point3(x=x, y=y, z=z)
 
 
 def _colour(rgb: tuple[int, int, int]) -> Color:
