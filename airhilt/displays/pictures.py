@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from PIL import Image
+
 from airhilt.engines import Package
 from airhilt.messages import CameraFrame
 from airhilt.record import Run
@@ -62,7 +64,8 @@ class _Video:
             self._next = next(self._pictures, None)
         if self._next is None or self._next[0] > t_ns + SAME_NS:
             return None
-        return encoded(self._overlay.picture_in(self._next[1].to_image()))
+        image = Image.fromarray(self._next[1].to_ndarray(format="rgb24"))
+        return encoded(self._overlay.picture_in(image))
 
     def _decoded(self, path: Path) -> Iterator[tuple[int, VideoFrame]]:
         with PYAV.importing():
