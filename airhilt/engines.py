@@ -12,14 +12,14 @@ from __future__ import annotations
 
 import importlib.metadata
 import shutil
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, first_line
 from airhilt.host.library import nearest
 from airhilt.host.services import is_service
 from airhilt.plugins import Family, missing
@@ -64,6 +64,17 @@ class Package:
     def remedy(self) -> str:
         """Return the command that installs it."""
         return f"pip install 'airhilt[{self.extra}]'"
+
+    @contextmanager
+    def importing(self) -> Iterator[None]:
+        """Convert an ImportError within to an `AirhiltError` that says how to get the package."""
+        try:
+            yield
+        except ImportError as error:
+            raise AirhiltError(
+                f"the package {self.name} is missing or does not load ({first_line(error)}); "
+                f"install it with `{self.remedy()}`"
+            ) from None
 
 
 @dataclass(frozen=True)

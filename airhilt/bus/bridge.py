@@ -18,7 +18,7 @@ import zenoh
 
 from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run, wait_until_over
-from airhilt.errors import BusError
+from airhilt.errors import AirhiltError, BusError
 from airhilt.messages import AdsbReport, LiveReport, Message
 from airhilt.units import SECOND_NS
 
@@ -131,10 +131,10 @@ def _publishing(session: zenoh.Session, prefix: str) -> Publish:
 
 @contextlib.contextmanager
 def exiting_on_error() -> Iterator[None]:
-    """Print a `BusError` as one line and exit with its code."""
+    """Print an `AirhiltError` as one line and exit with its code."""
     try:
         yield
-    except BusError as error:
+    except AirhiltError as error:
         sys.stderr.write(f"error: {error}\n")
         sys.exit(error.exit_code)
 
