@@ -1,4 +1,4 @@
-"""The examples of README and of the first page are run as they stand, on short scenarios."""
+"""The examples of README, the first page and the tutorials are run as they stand, in short runs."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tomllib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -25,8 +26,11 @@ from paths import DOCS, ROOT, SUPPORT
 from sweep_tables import grid, write_sweep
 
 PAGES = (ROOT / "README.md", *sorted(DOCS.glob("*.md")))
-RUN_PAGES = (ROOT / "README.md", DOCS / "README.md", DOCS / "getting-started.md")
-RUN_COMMANDS = ("airhilt", "for", "python examples/")
+TUTORIALS = (DOCS / "getting-started.md", *sorted(DOCS.glob("tutorial-*.md")))
+RUN_PAGES = (ROOT / "README.md", DOCS / "README.md", *TUTORIALS)
+RUN_COMMANDS = ("airhilt", "for", "python", "pip install ./")
+SAVED = re.compile(r"\b[Ss]ave (?:it|this) as\s+`([^`]+)`[^`]*?\n+```\w+\n(.*?)```", re.DOTALL)
+"""A file that a page lets its reader write: its name, and its text."""
 LONGEST_S = 300.0
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 RunBlocks = Callable[[Iterable[Sequence[str]]], None]
@@ -55,7 +59,7 @@ def examples(page: Path) -> Iterator[Example]:
 
 def commands(example: Example) -> list[str]:
     """Return the commands of a block that can be run here, without the remarks beside them."""
-    text = re.sub(r"\\\n\s*", "", example.text)
+    text = re.sub(r"\\\n\s*", "", "" if example.language else example.text)
     text = re.sub(r"(?m)(?<=\S)( {3,}| +#).*$", "", text)
     text = re.sub(r"(?ms)^for .*?^done", in_one_line, text)
     return [line for line in text.split("\n") if line.startswith(RUN_COMMANDS)]
@@ -77,9 +81,12 @@ CLUSTERS = ("from dask_jobqueue", "from dask_kubernetes")
 PYTHON = [
     one
     for one in EXAMPLES
-    if one.language == "python" and not any(package in one.text for package in CLUSTERS)
+    if one.language == "python"
+    and not any(package in one.text for package in CLUSTERS)
+    and one.text not in dict(SAVED.findall(one.page.read_text(encoding="utf-8"))).values()
 ]
-"""Examples in Python; the recipe for SLURM has a test of its own, marked ``slurm``."""
+"""Examples in Python; the recipe for SLURM has a test of its own, marked ``slurm``, and files that
+a reader writes are run with the commands of their page."""
 CHEAP_PYTHON = [one for one in PYTHON if not re.search(r"read_sweep\(|snapshot\(", one.text)]
 """Examples that neither read tables nor draw a picture."""
 
@@ -134,9 +141,14 @@ def as_run(command: str, endpoint: str, work: Path) -> str:
     """
     command = re.sub(r"tcp/127\.0\.0\.1:\d+", endpoint, command)
     command = re.sub(r"--images \d+", "--images 2", command)
+    command = command.replace(" --wait-for-seats", "")
     if command.startswith("airhilt sweep"):
         command = command.replace("'s01a_*'", "s02a_headon").replace("0:20:5", "5")
-        command = re.sub(r"--seeds \d+", "--seeds 1 --no-cameras --no-speech", command)
+        command = command.replace("0,10,20", "5").replace("0,5,10", "5")
+        command = command.replace("1000,2000,5000", "1000").replace(" --no-cameras", "")
+        fewer = "" if "--visibility" in command else " --no-cameras"
+        fewer += "" if "--asr" in command else " --no-speech"
+        command = re.sub(r"--seeds \d+", f"--seeds 1{fewer}", command)
     if command.startswith("airhilt evaluate"):
         command += " --dry-run"
     command = re.sub(r"runs/(\w+-0-)\.\.\.", lambda run: newest_run(work, run[1]), command)
@@ -167,6 +179,24 @@ def newest_run(work: Path, begin: str = "") -> str:
     return str(max(folders, key=lambda folder: folder.stat().st_mtime).relative_to(work))
 
 
+def install(project: Path, environment: dict[str, str], patch: pytest.MonkeyPatch) -> None:
+    """Install a project of one module, by its name and entry points, as pip would."""
+    declared = tomllib.loads((project / "pyproject.toml").read_text())["project"]
+    metadata = project / f"{declared['name']}-{declared['version']}.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text(
+        f"Metadata-Version: 2.1\nName: {declared['name']}\nVersion: {declared['version']}\n"
+    )
+    points = [
+        f"[{group}]\n" + "".join(f"{name} = {place}\n" for name, place in members.items())
+        for group, members in declared["entry-points"].items()
+    ]
+    (metadata / "entry_points.txt").write_text("".join(points))
+    patch.syspath_prepend(project)
+    environment["PYTHONPATH"] += f"{os.pathsep}{project}"
+    patch.setenv("PYTHONPATH", environment["PYTHONPATH"])
+
+
 @pytest.fixture
 def run_blocks(
     environment: dict[str, str], short_scenarios: Path,
@@ -185,7 +215,9 @@ def run_blocks(
             endpoint = free_endpoint()
             for command in filter(is_possible, block):
                 given = as_run(command, endpoint, work)
-                if given.endswith("&"):
+                if given.startswith("pip install"):
+                    install(work / given.rpartition("/")[2], environment, monkeypatch)
+                elif given.endswith("&"):
                     begun.append(given)
                 elif begun or not given.startswith("airhilt") or "--no-browser" in given:
                     run("\n".join([*begun, given, "wait"]), environment)
@@ -208,7 +240,15 @@ def test_the_first_run_of_the_readme_can_be_run(run_blocks: RunBlocks) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("page", RUN_PAGES, ids=lambda page: page.name)
 def test_the_commands_of_a_page_can_be_run(page: Path, run_blocks: RunBlocks) -> None:
+    write_files(page, Path.cwd())
     run_blocks(blocks_of(page))
+
+
+def write_files(page: Path, work: Path) -> None:
+    """Write the files that a page lets its reader write."""
+    for name, text in SAVED.findall(page.read_text(encoding="utf-8")):
+        (work / name).parent.mkdir(exist_ok=True)
+        (work / name).write_text(text)
 
 
 @pytest.fixture(scope="session")

@@ -30,6 +30,8 @@ def shorten(folder: Path) -> None:
         ):
             short = shortened(document, min(document["duration_s"], longest_s))
             short["cameras"] = cameras
+            if kind == "seen":  # times that are drawn would be before the start
+                short["perturbations"] = []
             path = folder / kind / f"{name}.json"
             path.parent.mkdir(exist_ok=True)
             path.write_text(json.dumps(short), encoding="utf-8")
@@ -44,7 +46,8 @@ def use(scenarios: Path) -> None:
 def use_for(arguments: list[str], folder: Path) -> None:
     """Let a command that runs scenarios find those that `shorten` has written to a folder."""
     if arguments[:1] in (["cosim"], ["sweep"], ["evaluate"]):
-        use(folder / ("seen" if "--video" in arguments else "unseen"))
+        with_cameras = {"--video", "--detector"} & set(arguments)
+        use(folder / ("seen" if with_cameras else "unseen"))
 
 
 if __name__ == "__main__":
