@@ -13,12 +13,13 @@ from pathlib import Path
 import pytest
 
 from airhilt.assistant.asr.engines.whisper import Whisper
+from airhilt.assistant.asr.whisper_models import downloaded
 from airhilt.errors import SpeechError
 from model_hub import COMMIT, REPOSITORY, Hub, hub_of
 from paths import DATA
 from services import nobody
 
-Models = Callable[..., subprocess.CompletedProcess[str]]
+Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 MODEL = DATA / "tiny_whisper"
 INSTALLED = importlib.util.find_spec("faster_whisper") is not None
@@ -40,15 +41,12 @@ def hub() -> Iterator[Hub]:
 
 
 @pytest.fixture
-def models(hub: Hub, tmp_path: Path) -> Models:
-    """Runs ``airhilt models`` in a process of its own: the hub's library reads its address once."""
+def get(hub: Hub, tmp_path: Path) -> Cli:
+    """Runs ``airhilt models get`` in a process of its own: the hub's address is read once in it."""
 
-    def call(*arguments: str, endpoint: str = "") -> subprocess.CompletedProcess[str]:
-        environment = os.environ | {
-            "HF_ENDPOINT": endpoint or hub.url,
-            "HF_HOME": str(tmp_path / "home"),
-        }
-        command = [sys.executable, "-m", "airhilt", "models", *arguments]
+    def call(name: str, endpoint: str = hub.url) -> subprocess.CompletedProcess[str]:
+        environment = os.environ | {"HF_ENDPOINT": endpoint, "HF_HOME": str(tmp_path / "home")}
+        command = [sys.executable, "-m", "airhilt", "models", "get", name]
         return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
 
     return call
@@ -60,7 +58,7 @@ def test_a_name_that_was_not_downloaded_is_refused_with_the_command_that_does() 
 
 
 def test_a_run_and_a_sweep_refuse_it_before_they_begin(
-    airhilt_command: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
+    airhilt_command: Cli, tmp_path: Path
 ) -> None:
     done = airhilt_command("cosim", "s01a_nominal", "--asr", "whisper:small.en", "--no-cameras")
     assert done.returncode == 2
@@ -72,9 +70,9 @@ def test_a_run_and_a_sweep_refuse_it_before_they_begin(
 @WITH_PACKAGE
 class TestWithFasterWhisper:
     def test_a_downloaded_model_is_used_by_its_name_and_listed_with_its_commit(
-        self, models: Models, hub: Hub, cache: Path
+        self, get: Cli, hub: Hub, cache: Path, airhilt_command: Cli
     ) -> None:
-        done = models("get", REPOSITORY)
+        done = get(REPOSITORY)
         assert done.returncode == 0, done.stderr
         expected = hashlib.sha256((MODEL / "model.bin").read_bytes()).hexdigest()
         assert f"{expected}  model.bin" in done.stdout
@@ -86,38 +84,47 @@ class TestWithFasterWhisper:
         }
         assert Whisper(REPOSITORY).name == f"whisper:{REPOSITORY}"
         hub.asked.clear()
-        assert models("get", REPOSITORY, "--revision", COMMIT).returncode == 0
+        assert airhilt_command("models", "get", REPOSITORY, "--revision", COMMIT).returncode == 0
         assert hub.asked == []
-        assert models("list").stdout == f"{REPOSITORY}  {REPOSITORY} at {COMMIT}\n"
-        assert models("remove", REPOSITORY).returncode == 0
-        assert models("list").stdout == ""
+        listed = f"{REPOSITORY}  {REPOSITORY} at {COMMIT}\n"
+        assert airhilt_command("models", "list").stdout == listed
+        assert airhilt_command("models", "remove", REPOSITORY).returncode == 0
+        assert airhilt_command("models", "list").stdout == ""
 
     def test_a_file_that_is_damaged_on_the_way_is_not_kept_and_can_be_got_again(
-        self, models: Models, hub: Hub
+        self, get: Cli, hub: Hub
     ) -> None:
-        whole = hub.files["model.bin"]
-        hub.sent["model.bin"] = bytes(len(whole))
-        done = models("get", REPOSITORY)
+        hub.sent["model.bin"] = bytes(len(hub.files["model.bin"]))
+        done = get(REPOSITORY)
         assert done.returncode == 2
         assert "model.bin was damaged on the way" in done.stderr
-        assert models("list").stdout == ""
+        assert list(downloaded()) == []
         hub.sent.clear()
-        assert models("get", REPOSITORY).returncode == 0
+        assert get(REPOSITORY).returncode == 0
 
     @pytest.mark.parametrize(
         ("name", "is_there", "why"),
-        [
-            ("somebody/nothing", True, "Not Found"),
-            (REPOSITORY, False, "Connect"),
-            ("huge-and-perfect", True, "Invalid model size 'huge-and-perfect', expected one of"),
-            ("../../elsewhere", True, "expected a name such as small.en"),
-        ],
+        [("somebody/nothing", True, "404"), (REPOSITORY, False, "Connect")],
     )
-    def test_what_cannot_be_downloaded_is_told_in_one_line(
-        self, models: Models, name: str, is_there: bool, why: str
+    def test_what_no_hub_has_is_told_in_one_line(
+        self, get: Cli, hub: Hub, name: str, is_there: bool, why: str
     ) -> None:
-        done = models("get", name, endpoint="" if is_there else nobody().removesuffix("/service"))
+        done = get(name, hub.url if is_there else nobody())
         assert done.returncode == 2
         assert why in done.stderr
         assert len(done.stderr.splitlines()) == 2  # after the one that says what is done
-        assert models("list").stdout == ""
+        assert list(downloaded()) == []
+
+    @pytest.mark.parametrize(
+        ("name", "why"),
+        [
+            ("huge-and-perfect", "Invalid model size 'huge-and-perfect', expected one of"),
+            ("../../elsewhere", "expected a name such as small.en"),
+        ],
+    )
+    def test_a_name_that_no_model_has_is_refused(
+        self, airhilt_command: Cli, name: str, why: str
+    ) -> None:
+        done = airhilt_command("models", "get", name)
+        assert done.returncode == 2
+        assert why in done.stderr

@@ -223,6 +223,6 @@ ENGINE = Engine(
     is_argument_required=True,
     takes=lambda text: (Path(text) / "model.bin").is_file(),
     requires=(Package("faster-whisper", extra="whisper"),),
-    require_files=require_model,
+    files=require_model,
     configuration=WhisperSettings,
 )
