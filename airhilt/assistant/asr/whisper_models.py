@@ -113,9 +113,7 @@ def download(name: str, revision: str | None = None) -> Path:
     except SpeechError:
         raise
     except Exception as error:  # the network's, the hub's, the disk's
-        raise SpeechError(
-            f"model {name!r}: cannot be downloaded: {type(error).__name__}: {first_line(error)}"
-        ) from None
+        raise SpeechError(f"model {name!r}: cannot be downloaded: {first_line(error)}") from None
     return folder
 
 

@@ -23,7 +23,6 @@ LANGUAGE = "en"
 SEED = 0
 """Seed of what is drawn at temperatures above 0."""
 
-
 Temperature = Annotated[float, Field(ge=0.0, le=1.0)]
 
 
@@ -90,7 +89,7 @@ DEFAULTS = WhisperSettings()
 
 
 class Whisper:
-    """Recognises with a Whisper model, offline if it is a folder.
+    """Recognises with a Whisper model that is on this machine.
 
     Noise alone gives nothing: a detector of voice activity is asked first, then the model itself
     whether there is speech. It begins with the roster's callsigns as hot words.
