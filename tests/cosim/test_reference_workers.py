@@ -14,6 +14,7 @@ from airhilt.errors import LanguageModelError
 from airhilt.messages import Advisory, Evidence, Modality, Severity, WorkerDescription
 from airhilt.options import Options
 from airhilt.sim.worker import Input
+from airhilt.workers import LocalWorker
 from airhilt.workers.pool import Participant
 from airhilt.world.loading import load
 from decisions import reference
@@ -79,8 +80,10 @@ def test_a_program_of_the_user_that_decides_hears_speaks_and_sees() -> None:
     ],
 )
 def test_a_seat_is_told_what_recognises_its_calls(asr: str, where: list[Any], told: str) -> None:
-    (worker,) = reference_workers(Options(asr=SERVICE), load("s01b_nominal"), ALL[1:])
-    there = tuple(Participant(worker.description, worker, each) for each in where)
+    taken: tuple[Modality, ...] = ("tts", "vision", "decision")
+    (worker,) = reference_workers(Options(asr=SERVICE), load("s01b_nominal"), taken)
+    endpoint = LocalWorker(worker)
+    there = tuple(Participant(worker.description, endpoint, each) for each in where)
     assert Participants("reference", there, ()).recogniser(Options(asr=asr)) == told
 
 
