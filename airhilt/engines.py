@@ -117,6 +117,9 @@ class Engine(Generic[T_co]):
         Words for error messages; empty: made from name and argument.
     requires
         Packages or programs that must be installed.
+    files
+        Returns the file or folder that its argument means, and loads no model. If the argument can
+        be a name, it complains with an `AirhiltError` about one that stands for nothing.
     is_remote
         True if it asks a program elsewhere, which may answer differently another time: a replay
         takes its results from the record.
@@ -136,6 +139,7 @@ class Engine(Generic[T_co]):
     takes: Callable[[str], bool] = lambda _: False
     usage: str = ""
     requires: tuple[Requirement, ...] = ()
+    files: Callable[[str], Path] = Path
     is_remote: bool = False
     probe: Callable[[str], None] = lambda _: None
     configuration: type[BaseModel] | None = None
@@ -247,6 +251,7 @@ class EngineFamily(Family, Generic[T]):
         engine, argument = self.choose(text, self.words)
         if lacks := engine.lacks():
             raise self.error(f"{self.word} {text!r}: it is not installed; expected {lacks}")
+        engine.files(argument)
         is_path = engine.argument.startswith(("FILE", "FOLDER")) and "NAME" not in engine.argument
         if argument and is_path and not Path(argument).exists():
             raise self.error(

@@ -108,7 +108,7 @@ def seat_states(
             frequencies_khz=frequencies_khz,
             tuned_khz=frequencies_khz,
             has_own_receiver=seat in radio.receivers,
-            is_recognised=participants.does("asr"),
+            recogniser=participants.recogniser(options),
             voice_is_recorded=options.voice_recording,
             may_pause=options.pause,
             phraseology=radio.phraseology,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from airhilt.bus.attach import attach, require_different_names
 from airhilt.bus.closed import ClosedBus
@@ -13,7 +14,7 @@ from airhilt.cosim.equipment import equipment_of, require_no_equipment
 from airhilt.cosim.option_checks import inputs_given
 from airhilt.cosim.reference_workers import reference_workers, speak_min_level
 from airhilt.cosim.setup import Setup
-from airhilt.engine_families import ASSISTANTS, EXTERNAL
+from airhilt.engine_families import ASSISTANTS, EXTERNAL, RECOGNISERS
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality, Severity
 from airhilt.options import Options
@@ -42,6 +43,14 @@ class Participants:
     def does(self, modality: Modality) -> bool:
         """Return whether a worker is there for a modality."""
         return any(worker.description.modality == modality for worker in self.workers)
+
+    def recogniser(self, options: Options) -> Literal["none", "embedded", "other"]:
+        """Return what recognises spoken calls; `SeatState` has the meaning of the words."""
+        found = [worker for worker in self.workers if worker.description.modality == "asr"]
+        if not found:
+            return "none"
+        ships = options.asr == RECOGNISERS.default
+        return "embedded" if ships and found[0].where == "in process" else "other"
 
     @property
     def speak_min_level(self) -> Severity:
