@@ -129,7 +129,7 @@ class SeatedAgent(Agent):
             **seat_equipment(name, setup.scenario),
             frequencies_khz=frequencies_khz,
             tuned_khz=frequencies_khz,
-            is_recognised=False,
+            recogniser="none",
             voice_is_recorded=False,
         )
 
