@@ -168,9 +168,11 @@ def run(
     out
         The run folder; None makes a new one under ``runs/``.
     observer
-        Is told how the run is doing; None: a notebook shows it below the cell.
+        Is told how the run is doing. None: a notebook shows it below the cell; elsewhere, with
+        workers, Python warns of what the user should know, such as the loss of one.
     workers
-        Workers of this process. Each takes the place of the reference worker of its modality.
+        Workers of this process. Each takes the place of the reference worker of its modality. One
+        that raises an error is lost, and the run goes on without it unless it is ``strict``.
     options
         Fields of `airhilt.Options`: ``seed``, ``assistant``, ``latency``, ``pace`` ...
 
@@ -178,11 +180,13 @@ def run(
     ------
     AirhiltError
         Something that was given is wrong.
+    RunStopped
+        The run is ``strict``, and has lost a worker.
     TypeError
         There is no option of that name; the message gives the nearest.
     """
     from airhilt.configuration import read_configuration
-    from airhilt.cosim.observer import NotebookProgress
+    from airhilt.cosim.observer import NotebookProgress, WarningObserver
     from airhilt.cosim.simulation import run as run_scenario
     from airhilt.host.notebook import is_notebook
     from airhilt.options import options_of
@@ -194,6 +198,8 @@ def run(
     if isinstance(options.get("assistant_config"), str | Path):
         options["assistant_config"] = read_configuration(Path(options["assistant_config"]))
     given = options_of({"out": out, **options})
+    if observer is None and workers:
+        observer = WarningObserver()
     return run_scenario(scenario, given, observer, workers=workers)
 
 

@@ -75,11 +75,14 @@ class VerticalRateCommand(_Command):
 
 
 class CrossFixCommand(_Command):
-    """Be at an altitude when the fix is passed, on the way as before."""
+    """Pass a fix at an altitude, and go on to the altitude that was told before from there."""
 
     action: Literal["cross_fix"]
     fix: Name
     altitude_ft: AltitudeFt
+    bound: Literal["or_more", "or_less"] | None = Field(
+        default=None, description="side on which it may be passed too; null: at that altitude"
+    )
 
 
 class RouteCommand(_Command):
@@ -132,6 +135,10 @@ class EmergencyDescentCommand(_Command):
 
 # --- to and from a runway -------------------------------------------------------------------
 
+_LEVEL: AltitudeFt | None = Field(
+    default=None, description="altitude on the way to the final approach; null: the usual one"
+)
+
 
 class LineUpCommand(_Command):
     """Line up on a runway and wait there."""
@@ -174,6 +181,13 @@ class LandCommand(_Command):
     not_below_ft: AltitudeFt | None = Field(
         default=None, description="of a low approach; null: about 100 ft above the runway"
     )
+    level_ft: AltitudeFt | None = _LEVEL
+
+
+class CancelLandingCommand(_Command):
+    """Go on with the approach, without the clearance to land."""
+
+    action: Literal["cancel_landing"]
 
 
 class GoAroundCommand(_Command):
@@ -196,6 +210,7 @@ class ApproachCommand(_Command):
     action: Literal["approach"]
     runway: RunwayIdent
     kind: Literal["straight_in", "visual", "circling"] = "straight_in"
+    level_ft: AltitudeFt | None = _LEVEL
 
 
 class JoinCommand(_Command):
@@ -207,6 +222,7 @@ class JoinCommand(_Command):
     side: Side | None = Field(
         default=None, description="null: as the circuit is flown already, or left"
     )
+    level_ft: AltitudeFt | None = _LEVEL
 
 
 class ExtendCommand(_Command):
@@ -421,6 +437,7 @@ AircraftCommand = (
     | TakeOffCommand
     | CancelTakeoffCommand
     | LandCommand
+    | CancelLandingCommand
     | GoAroundCommand
     | SideStepCommand
     | TaxiCommand

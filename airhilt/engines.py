@@ -12,14 +12,14 @@ from __future__ import annotations
 
 import importlib.metadata
 import shutil
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, first_line
 from airhilt.host.library import nearest
 from airhilt.host.services import is_service
 from airhilt.plugins import Family, missing
@@ -65,6 +65,17 @@ class Package:
         """Return the command that installs it."""
         return f"pip install 'airhilt[{self.extra}]'"
 
+    @contextmanager
+    def importing(self) -> Iterator[None]:
+        """Convert an ImportError within to an `AirhiltError` that says how to get the package."""
+        try:
+            yield
+        except ImportError as error:
+            raise AirhiltError(
+                f"the package {self.name} is missing or does not load ({first_line(error)}); "
+                f"install it with `{self.remedy()}`"
+            ) from None
+
 
 @dataclass(frozen=True)
 class Command:
@@ -106,6 +117,9 @@ class Engine(Generic[T_co]):
         Words for error messages; empty: made from name and argument.
     requires
         Packages or programs that must be installed.
+    files
+        Returns the file or folder that its argument means, and loads no model. If the argument can
+        be a name, it complains with an `AirhiltError` about one that stands for nothing.
     is_remote
         True if it asks a program elsewhere, which may answer differently another time: a replay
         takes its results from the record.
@@ -125,6 +139,7 @@ class Engine(Generic[T_co]):
     takes: Callable[[str], bool] = lambda _: False
     usage: str = ""
     requires: tuple[Requirement, ...] = ()
+    files: Callable[[str], Path] = Path
     is_remote: bool = False
     probe: Callable[[str], None] = lambda _: None
     configuration: type[BaseModel] | None = None
@@ -236,6 +251,7 @@ class EngineFamily(Family, Generic[T]):
         engine, argument = self.choose(text, self.words)
         if lacks := engine.lacks():
             raise self.error(f"{self.word} {text!r}: it is not installed; expected {lacks}")
+        engine.files(argument)
         is_path = engine.argument.startswith(("FILE", "FOLDER")) and "NAME" not in engine.argument
         if argument and is_path and not Path(argument).exists():
             raise self.error(

@@ -90,6 +90,8 @@ class Family:
         try:
             member = found[0].load()
             fits = isinstance(member, self.protocol) and getattr(member, "name", name) == name
+        except AirhiltError as error:  # It says itself what it lacks.
+            raise self.error(str(error)) from error
         except (Exception, SystemExit) as error:  # A script without a guard ends when imported.
             raise self.error(
                 f"{self.word} {name!r} cannot be loaded from {found[0].value}: "

@@ -12,9 +12,8 @@ that read too slowly lose the oldest messages.
 
 from __future__ import annotations
 
-import math
 import threading
-from typing import Any
+from collections.abc import Callable
 
 from PIL import Image
 
@@ -25,213 +24,56 @@ from airhilt.messages import (
     AdsbReport,
     Advisory,
     CameraFrame,
-    Detection,
     Detections,
     EquipmentAlert,
-    Severity,
+    Message,
     Transcript,
     Transmission,
 )
-from airhilt.station.pictures import encoded
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+from airhilt.record.kept_pictures import encoded
+from airhilt.units import SECOND_NS
 
 with exiting_on_error():
-    try:
-        from foxglove import Context, channels, start_server
-        from foxglove.messages import (
-            Color,
-            CompressedImage,
-            ImageAnnotations,
-            KeyValuePair,
-            LocationFix,
-            Log,
-            LogLevel,
-            Point2,
-            PointsAnnotation,
-            PointsAnnotationType,
-            RawAudio,
-            TextAnnotation,
-            Timestamp,
-            Vector3,
-        )
-    except ImportError as error:
-        raise BusError(
-            f"the package foxglove-sdk is missing or does not load ({first_line(error)}); install "
-            "it with `pip install airhilt[foxglove]`"
-        ) from None
+    from foxglove import Context, start_server
 
-LEVELS = {
-    Severity.INFO: LogLevel.Info,
-    Severity.ADVISORY: LogLevel.Info,
-    Severity.CAUTION: LogLevel.Warning,
-    Severity.WARNING: LogLevel.Error,
+    from airhilt.displays.foxglove_channels import FoxgloveChannels
+
+SHOWN: dict[str, type[Message]] = {
+    "adsb/*": AdsbReport,
+    "truth/state/*": ActorTruth,
+    "advisory/*": Advisory,
+    "equipment/*/*": EquipmentAlert,
+    "asr/*": Transcript,
+    "vision/*": Detections,
 }
-BOX_COLOUR = Color(r=1.0, g=0.8, b=0.0, a=1.0)
-LABEL_COLOUR = Color(r=0.0, g=0.0, b=0.0, a=1.0)
-BOX_WIDTH_PX = 2.0
-LABEL_SIZE_PX = 12.0
+"""Messages that are shown, by the patterns of their keys."""
 
 
 class Display:
-    """Gives out the messages of a run on the topics of a context."""
+    """Gives out the messages of a run that goes on, in times of day."""
 
     def __init__(self, context: Context) -> None:
-        self._context = context
-        self._channels: dict[str, Any] = {}
-        self._lines = channels.LogChannel("/log", context=context)
-        self._times = WallClock()
-
-    def show_report(self, data: bytes) -> None:
-        """Show the position in an ADS-B report; its altitude is the pressure altitude."""
-        report = AdsbReport.model_validate_json(data)
-        speed, track = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
-        said = {
-            "callsign": report.callsign,
-            "squawk": report.squawk,
-            "emergency": report.emergency,
-            "category": report.emitter_category,
-        }
-        fix = LocationFix(
-            timestamp=self._time(report.t_adsb_in_ns),
-            latitude=report.latitude_deg,
-            longitude=report.longitude_deg,
-            altitude=(report.altitude_ft or 0.0) * FOOT,
-            velocity=Vector3(
-                x=speed * math.sin(track),
-                y=speed * math.cos(track),
-                z=report.vertical_rate_fpm * FOOT_PER_MINUTE,
-            ),
-            metadata=[KeyValuePair(key=key, value=value) for key, value in said.items() if value],
-        )
-        self._channel(channels.LocationFixChannel, f"/adsb/{report.icao24}").log(
-            fix, log_time=self._time_ns(report.t_ns)
+        times = WallClock()
+        self._channels = FoxgloveChannels(
+            context, lambda t_ns: round(times.at(t_ns).timestamp() * SECOND_NS)
         )
 
-    def show_truth(self, data: bytes) -> None:
-        """Show the true position of an actor."""
-        state = ActorTruth.model_validate_json(data)
-        fix = LocationFix(
-            timestamp=self._time(state.t_ns),
-            latitude=state.latitude_deg,
-            longitude=state.longitude_deg,
-            altitude=state.altitude_m,
-            velocity=Vector3(
-                x=state.velocity_east_m_s, y=state.velocity_north_m_s, z=-state.velocity_down_m_s
-            ),
-            metadata=[KeyValuePair(key="phase", value=state.phase)],
-        )
-        self._channel(channels.LocationFixChannel, f"/truth/state/{state.actor}").log(
-            fix, log_time=self._time_ns(state.t_ns)
-        )
-
-    def show_advisory(self, data: bytes) -> None:
-        """Log an advisory of the assistant."""
-        self._log_advisory("assistant", Advisory.model_validate_json(data))
-
-    def show_alert(self, data: bytes) -> None:
-        """Log an alert of equipment in the world."""
-        alert = EquipmentAlert.model_validate_json(data)
-        self._log_advisory(alert.equipment, alert.advisory)
-
-    def show_transcript(self, data: bytes) -> None:
-        """Log the words of a transmission."""
-        transcript = Transcript.model_validate_json(data)
-        if transcript.text:
-            self._log(
-                transcript.t_ns,
-                LogLevel.Info,
-                f"{transcript.frequency_khz / 1000:.3f} MHz",
-                f"{transcript.speaker or 'unknown'}: {transcript.text}",
-            )
+    def shows(self, kind: type[Message]) -> Callable[[bytes], None]:
+        """Return what shows the messages of a class."""
+        return lambda data: self._channels.show(kind.model_validate_json(data))
 
     def show_transmission(self, header: bytes, pcm: bytes) -> None:
-        """Give out the sound of a transmission."""
+        """Give out the sound of a transmission, at its end."""
         transmission = Transmission.model_validate_json(header)
         if pcm:
-            audio = RawAudio(
-                timestamp=self._time(transmission.t_tx_ns),
-                data=pcm,
-                format="pcm-s16",
-                sample_rate=transmission.sample_rate_hz,
-                number_of_channels=1,
-            )
-            topic = f"/radio/{transmission.frequency_khz}/tx"
-            self._channel(channels.RawAudioChannel, topic).log(
-                audio, log_time=self._time_ns(transmission.t_ns)
-            )
+            self._channels.show_sound(transmission, pcm, transmission.t_ns)
 
     def show_picture(self, header: bytes, pixels: bytes) -> None:
-        """Show a picture of a camera as JPEG, if a program looks at it."""
+        """Show a picture of a camera, if a program looks at it."""
         frame = CameraFrame.model_validate_json(header)
-        channel = self._channel(channels.CompressedImageChannel, f"/camera/{frame.camera}/frame")
-        if pixels and channel.has_sinks():
+        if pixels and self._channels.is_watched(frame.camera):
             size = frame.view.width_px, frame.view.height_px
-            picture = CompressedImage(
-                timestamp=self._time(frame.t_frame_ns),
-                frame_id=frame.camera,
-                data=encoded(Image.frombytes("RGB", size, pixels)),
-                format="jpeg",
-            )
-            channel.log(picture, log_time=self._time_ns(frame.t_ns))
-
-    def show_detections(self, data: bytes) -> None:
-        """Show the boxes of what a detector found; they have the time of their picture."""
-        found = Detections.model_validate_json(data)
-        taken = self._time(found.t_frame_ns)
-        annotations = ImageAnnotations(
-            timestamp=taken,
-            points=[_box(detection, taken) for detection in found.detections],
-            texts=[_label(detection, taken) for detection in found.detections],
-        )
-        self._channel(channels.ImageAnnotationsChannel, f"/vision/{found.camera}").log(
-            annotations, log_time=self._time_ns(found.t_ns)
-        )
-
-    def _log_advisory(self, source: str, advisory: Advisory) -> None:
-        level = LEVELS[advisory.severity] if advisory.active else LogLevel.Info
-        message = advisory.message if advisory.active else f"over: {advisory.message}"
-        self._log(advisory.t_ns, level, f"{source} to {advisory.recipient}", message)
-
-    def _log(self, t_ns: int, level: LogLevel, name: str, message: str) -> None:
-        line = Log(timestamp=self._time(t_ns), level=level, name=name, message=message)
-        self._lines.log(line, log_time=self._time_ns(t_ns))
-
-    def _channel(self, kind: Any, topic: str) -> Any:
-        """Return the channel of a topic, which is made at its first message."""
-        channel = self._channels.get(topic)
-        if channel is None:
-            channel = self._channels[topic] = kind(topic, context=self._context)
-        return channel
-
-    def _time(self, t_ns: int) -> Timestamp:
-        return Timestamp.from_datetime(self._times.at(t_ns))
-
-    def _time_ns(self, t_ns: int) -> int:
-        return round(self._times.at(t_ns).timestamp() * SECOND_NS)
-
-
-def _box(detection: Detection, taken: Timestamp) -> PointsAnnotation:
-    left, top, right, bottom = detection.box
-    corners = ((left, top), (right, top), (right, bottom), (left, bottom))
-    return PointsAnnotation(
-        timestamp=taken,
-        type=PointsAnnotationType.LineLoop,
-        points=[Point2(x=x, y=y) for x, y in corners],
-        outline_color=BOX_COLOUR,
-        thickness=BOX_WIDTH_PX,
-    )
-
-
-def _label(detection: Detection, taken: Timestamp) -> TextAnnotation:
-    left, top, _, _ = detection.box
-    return TextAnnotation(
-        timestamp=taken,
-        position=Point2(x=left, y=top),
-        text=f"{detection.label} {detection.confidence:.2f}",
-        font_size=LABEL_SIZE_PX,
-        text_color=LABEL_COLOUR,
-        background_color=BOX_COLOUR,
-    )
+            self._channels.show_picture(frame, encoded(Image.frombytes("RGB", size, pixels)))
 
 
 def main() -> None:
@@ -253,14 +95,7 @@ def main() -> None:
         display = Display(context)
         relay(
             given,
-            {
-                "adsb/*": display.show_report,
-                "truth/state/*": display.show_truth,
-                "advisory/*": display.show_advisory,
-                "equipment/*/*": display.show_alert,
-                "asr/*": display.show_transcript,
-                "vision/*": display.show_detections,
-            },
+            {pattern: display.shows(kind) for pattern, kind in SHOWN.items()},
             {
                 "radio/*/tx": display.show_transmission,
                 "camera/*/frame": display.show_picture,

@@ -16,6 +16,7 @@ from airhilt.messages import (
     Climb,
     Clock,
     Detection,
+    LiveReport,
     Message,
     PageRefusal,
     Part,
@@ -69,7 +70,8 @@ def test_the_schema_has_the_limit_of_every_key_that_others_publish_on() -> None:
     }
     assert limits["advisory/{recipient}"] == {"size_bytes": 32_000, "rate_hz": 50}
     assert {MODELS[key] for key in limits} == {
-        *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand, PageRefusal, SeatAction,
+        *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand, LiveReport, PageRefusal,
+        SeatAction,
     }  # fmt: skip
 
 

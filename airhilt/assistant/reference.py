@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from airhilt.assistant.language_model import LanguageModelSettings, UsesLanguageModel
 from airhilt.engine_families import (
@@ -18,6 +18,9 @@ from airhilt.engine_families import (
 from airhilt.errors import LanguageModelError, WorkerError
 from airhilt.messages import Told
 from airhilt.workers.protocol import Worker
+
+if TYPE_CHECKING:
+    from airhilt.assistant.decision.worker import DecisionWorker
 
 # Engines are imported where they are used: a run without speech or cameras starts without the
 # libraries behind them.
@@ -99,7 +102,7 @@ def decision_worker(
     told: Told | None = None,
     is_gated: bool = False,
     llm: LanguageModelSettings | None = None,
-) -> Worker:
+) -> DecisionWorker:
     """Return the worker around a decision engine.
 
     Parameters

@@ -66,7 +66,7 @@ def services_document() -> Json:
                 "--assistant: any path",
                 _json(AssistantRequest),
                 _json(AssistantAnswer),
-                ("ts_ms", "callsigns"),
+                ("run_id", "ts_ms", "callsigns"),
             ),
         },
         "security": [{}, {"key": []}],

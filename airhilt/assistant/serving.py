@@ -13,17 +13,21 @@ import numpy as np
 from fastapi import FastAPI, HTTPException, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from PIL import Image, UnidentifiedImageError
+from prometheus_client import CONTENT_TYPE_LATEST
 from pydantic import BaseModel, ValidationError
 
 from airhilt.assistant.asr.engine import AsrEngine, Call, recognised
 from airhilt.assistant.asr.service_messages import TranscribedWord, Transcription, TranscriptionForm
 from airhilt.assistant.decision.served import ServedAssistant
 from airhilt.assistant.decision.service_messages import AssistantRequest
-from airhilt.assistant.reference import reference_worker
+from airhilt.assistant.reference import decision_worker
 from airhilt.assistant.service_kinds import PATHS, ServiceKind
+from airhilt.assistant.service_metrics import ServiceMetrics
 from airhilt.assistant.services_document import services_document
 from airhilt.assistant.vision.detector import Detector, DetectsShots, Shot
+from airhilt.assistant.vision.gating import SeesParts
 from airhilt.assistant.vision.service_messages import DetectionAnswer, FoundObject, PictureRequest
+from airhilt.assistant.vision.tiling import Tile
 from airhilt.audio.wav import decode_speech, encode_wav
 from airhilt.engine_families import DETECTORS, RECOGNISERS, VOICES
 from airhilt.errors import AirhiltError, all_problems
@@ -48,22 +52,34 @@ def service_app(kind: ServiceKind, engine: str) -> FastAPI:
         The engine cannot be loaded.
     """
     answer = _ANSWERS[kind](engine)
+    metrics = ServiceMetrics(kind, engine)
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     lock = threading.Lock()
 
     def locked(body: bytes, headers: Mapping[str, str]) -> Response:
-        with lock:
+        with metrics.in_progress(), lock, metrics.engine_time():
             return answer(body, headers)
 
     @app.post(PATHS[kind])
     async def post(request: Request) -> Response:
         body = await request.body()
+        status = 500
         try:
-            return await run_in_threadpool(locked, body, request.headers)
+            answered = await run_in_threadpool(locked, body, request.headers)
+            status = answered.status_code
         except ValidationError as error:
-            raise HTTPException(422, all_problems(error)) from None
+            status = 422
+            raise HTTPException(status, all_problems(error)) from None
         except AirhiltError as error:
-            raise HTTPException(422, str(error)) from None
+            status = 422
+            raise HTTPException(status, str(error)) from None
+        finally:
+            metrics.answered(status)
+        return answered
+
+    @app.get("/metrics")
+    async def measured() -> Response:
+        return Response(metrics.text(), media_type=CONTENT_TYPE_LATEST)
 
     @app.get("/health")
     async def health() -> dict[str, str]:
@@ -135,22 +151,31 @@ def _vision(name: str) -> Answer:
             top,
             None if own is None else np.asarray(own),
         )
-        found = (
-            engine.detect_shot(picture, shot)
-            if isinstance(engine, DetectsShots)
-            else engine.detect(picture)
-        )
+        if request.window_px is not None and isinstance(engine, SeesParts):
+            left, top, right, bottom = request.window_px
+            found = engine.detect_in(picture, Tile(top, left, bottom - top, right - left), shot)
+        elif isinstance(engine, DetectsShots):
+            found = engine.detect_shot(picture, shot)
+        else:
+            found = engine.detect(picture)
         objects = tuple(FoundObject.model_validate(each._asdict()) for each in found)
-        return _json(DetectionAnswer(detections=objects))
+        return _json(
+            DetectionAnswer(
+                detections=objects,
+                threshold=engine.threshold,
+                looks_at_windows=isinstance(engine, SeesParts),
+            )
+        )
 
     return answer
 
 
 def _decision(name: str) -> Answer:
-    assistant = ServedAssistant(lambda: reference_worker("decision", name))
+    assistant = ServedAssistant(lambda: decision_worker(name))
 
-    def answer(body: bytes, _: Mapping[str, str]) -> Response:
-        return _json(assistant.answer(AssistantRequest.model_validate_json(body)))
+    def answer(body: bytes, headers: Mapping[str, str]) -> Response:
+        run_id = ServiceHeaders.decoded(headers).run_id or ""
+        return _json(assistant.answer(AssistantRequest.model_validate_json(body), run_id))
 
     return answer
 

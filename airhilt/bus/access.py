@@ -24,7 +24,7 @@ BY_CERTIFICATE: Subjects = {CERTIFICATE_NAME.format(role): (role,) for role in R
 PUBLISHED: Mapping[Role, tuple[str, ...]] = {
     "observer": ("page",),
     "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
-    "operator": ("command/*", "page"),
+    "operator": ("command/*", "live/*", "page"),
     "recorder": (),
 }
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""
@@ -46,15 +46,15 @@ _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
         ("**",),
     ),
     "ask": ("ingress", ("query",), ASKED),
-    "be answered": ("egress", ("reply",), ASKED),
+    "be answered": ("egress", ("declare_queryable", "reply"), ASKED),
     "receive": ("egress", ("put", "declare_subscriber"), ("**",)),
     "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*")),
     "attach": ("ingress", ("liveliness_token",), ("worker/*",)),
     "read seats": ("ingress", ("query",), SEAT_STATES),
-    "be told of seats": ("egress", ("reply",), SEAT_STATES),
+    "be told of seats": ("egress", ("declare_queryable", "reply"), SEAT_STATES),
     "hold a seat": ("ingress", ("liveliness_token",), (HOLDERS,)),
     "act at a seat": ("ingress", ("query",), SEAT_ACTS),
-    "be answered at a seat": ("egress", ("reply",), SEAT_ACTS),
+    "be answered at a seat": ("egress", ("declare_queryable", "reply"), SEAT_ACTS),
     "be asked": ("egress", ("query",), ANSWERED),
     "answer": ("ingress", ("declare_queryable", "reply"), ANSWERED),
     **{

@@ -9,16 +9,17 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import NamedTuple
 
 import zenoh
 
-from airhilt.bus.session import ROOT, close_session, connect_client
-from airhilt.errors import BusError
-from airhilt.messages import AdsbReport, Clock
+from airhilt.bus.access import Role
+from airhilt.bus.session import close_session, connect_client, find_run, wait_until_over
+from airhilt.errors import AirhiltError, BusError
+from airhilt.messages import AdsbReport, LiveReport, Message
 from airhilt.units import SECOND_NS
 
 PATIENCE_S = 30.0
@@ -29,6 +30,10 @@ LAST_S = 1.0
 """Time that clients have at the end of a run to take what waits for them, in s."""
 RETRY_S = 1.0
 """Time between two attempts to connect to a program, in s."""
+READ_BYTES = 65_536
+"""Greatest number of bytes that are read from a receiver at a time."""
+Publish = Callable[[str, Message], None]
+"""Publishes a message on a key below the run."""
 
 
 def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
@@ -46,6 +51,7 @@ def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
     )
     parser.add_argument("--connect", help="the run's endpoint, if not that of the keys")
     parser.add_argument("--tls", type=Path, help="folder with observer.json of `airhilt keys init`")
+    parser.add_argument("--run", help="name of the run, where a router leads to several")
     parser.add_argument("--port", type=int, default=port, help=f"default: {port}")
     return parser
 
@@ -54,6 +60,7 @@ def relay(
     given: argparse.Namespace,
     heard: Mapping[str, Callable[[bytes], None]],
     heard_raw: Mapping[str, Callable[[bytes, bytes], None]] | None = None,
+    feed: Callable[[Publish], None] | None = None,
 ) -> None:
     """Call functions with the messages of a run until the run is over.
 
@@ -66,23 +73,18 @@ def relay(
         thread of Zenoh.
     heard_raw
         Called with the header and the bytes of each message on keys whose payload is raw bytes.
+    feed
+        Called once, on a thread of its own, with what publishes messages in the run; the program
+        then joins it as an operator.
 
     Raises
     ------
     BusError
-        There is no run at the endpoint, or it does not let this program in.
+        There is no run at the endpoint, or there are several and none is named; or it does not let
+        this program in.
     """
-    session = connect_client(given.connect, PATIENCE_S, given.tls, "observer")
-    is_over = threading.Event()
-
-    def hear_clock(sample: zenoh.Sample) -> None:
-        clock = Clock.model_validate_json(sample.payload.to_bytes())
-        if clock.phase in ("finished", "stopped"):
-            is_over.set()
-
-    def hear_presence(sample: zenoh.Sample) -> None:
-        if sample.kind == zenoh.SampleKind.DELETE:
-            is_over.set()
+    role: Role = "observer" if feed is None else "operator"
+    session = connect_client(given.connect, PATIENCE_S, given.tls, role)
 
     def forward(call: Callable[[bytes], None]) -> Callable[[zenoh.Sample], None]:
         return lambda sample: call(sample.payload.to_bytes())
@@ -96,24 +98,43 @@ def relay(
 
     calls = {key: forward(call) for key, call in heard.items()}
     calls |= {key: forward_raw(call) for key, call in (heard_raw or {}).items()}
+    try:
+        prefix = find_run(session, PATIENCE_S, given.run)
+    except BusError:
+        close_session(session)
+        raise
     subscribers = [
-        session.declare_subscriber(f"{ROOT}/*/{key}", call) for key, call in calls.items()
+        session.declare_subscriber(f"{prefix}/{key}", call) for key, call in calls.items()
     ]
-    subscribers.append(session.declare_subscriber(f"{ROOT}/*/clock", hear_clock))
-    subscribers.append(session.liveliness().declare_subscriber(f"{ROOT}/*/run", hear_presence))
+    if feed is not None:
+        publish = _publishing(session, prefix)
+        threading.Thread(target=feed, args=(publish,), daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt):
-        is_over.wait()
+        wait_until_over(session, prefix)
     for subscriber in subscribers:
         subscriber.undeclare()  # type: ignore[no-untyped-call]
     close_session(session)
 
 
+def _publishing(session: zenoh.Session, prefix: str) -> Publish:
+    """Return what publishes messages on the keys of a run."""
+
+    def publish(key: str, message: Message) -> None:
+        session.put(
+            f"{prefix}/{key}",
+            message.model_dump_json(),
+            congestion_control=zenoh.CongestionControl.BLOCK,
+        )
+
+    return publish
+
+
 @contextlib.contextmanager
 def exiting_on_error() -> Iterator[None]:
-    """Print a `BusError` as one line and exit with its code."""
+    """Print an `AirhiltError` as one line and exit with its code."""
     try:
         yield
-    except BusError as error:
+    except AirhiltError as error:
         sys.stderr.write(f"error: {error}\n")
         sys.exit(error.exit_code)
 
@@ -148,6 +169,41 @@ def serve_reports(
             {"adsb/*": lambda data: feed.send(encode(AdsbReport.model_validate_json(data)))},
         )
         feed.close()
+
+
+def feed_reports(
+    documentation: str | None, port: int, decode: Callable[[bytes], Iterable[LiveReport]]
+) -> None:
+    """Run a bridge that gives the targets of a receiver to a run, until the run is over.
+
+    Parameters
+    ----------
+    documentation
+        Docstring of the bridge.
+    port
+        Default of the port of the receiver.
+    decode
+        Returns the reports in the next bytes of the receiver.
+    """
+    parser = options(documentation, port)
+    parser.add_argument(
+        "--from", dest="host", default="127.0.0.1", metavar="HOST", help="default: 127.0.0.1"
+    )
+    given = parser.parse_args()
+
+    def feed(publish: Publish) -> None:
+        while True:
+            with (
+                contextlib.suppress(OSError),
+                socket.create_connection((given.host, given.port)) as connection,
+            ):
+                while data := connection.recv(READ_BYTES):
+                    for report in decode(data):
+                        publish(f"live/{report.icao24}", report)
+            time.sleep(RETRY_S)
+
+    with exiting_on_error():
+        relay(given, {}, feed=feed)
 
 
 def datagrams(host: str, port: int) -> Callable[[bytes], None]:

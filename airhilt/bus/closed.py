@@ -29,6 +29,11 @@ class ClosedBus:
         self.endpoint = endpoint
         self.refused: Refused = _ignored
 
+    @property
+    def returns_s(self) -> float:
+        """Wall time in s in which a program that is out of reach may come back."""
+        return 0.0
+
     def put(self, key: str, payload: Payload, attachment: bytes | None = None) -> None:
         """Publish to nobody; a deferred payload is not made."""
 

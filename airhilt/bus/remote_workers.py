@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.bus.session import Bus
+from airhilt.bus.session import RETRY_S, Bus
 from airhilt.errors import RendererError, WorkerError, all_problems, shown
 from airhilt.messages import (
     Grant,
@@ -35,6 +36,7 @@ class RemoteWorker:
 
     def __init__(self, bus: Bus, name: str, timeout_s: float) -> None:
         self.name = name
+        self._returns_s = bus.returns_s
         self._zenoh_id: str | None = None
         self._bus = bus
         self._key = f"{bus.prefix}/worker/{name}"
@@ -121,10 +123,12 @@ class RemoteWorker:
         )
         header = grant.model_dump_json().encode()
         replies = self._ask("step", self._timeout_s, payload, header)
-        return RemoteStep(self, seq, replies)
+        return RemoteStep(self, seq, replies, payload, header)
 
-    def receive(self, seq: int, replies: zenoh.Handler[zenoh.Reply]) -> Reply:
+    def receive(self, step: RemoteStep) -> Reply:
         """Wait for the reply to a grant, and check it; those of other programs are ignored.
+
+        A worker that comes back to a router within `RETURNS_S` is asked again.
 
         Raises
         ------
@@ -133,14 +137,22 @@ class RemoteWorker:
         WorkerError
             It is not a reply to that grant.
         """
-        for reply in replies:
-            if not self._is_own(reply):
-                self._ignore(reply)
-                continue
-            if reply.err is not None:
-                raise self._lost(reply.err.payload.to_bytes())
-            if reply.ok is not None:
-                return self._parse(seq, reply.ok)
+        replies = step.replies
+        until_s = time.monotonic() + self._returns_s
+        while True:
+            for reply in replies:
+                if not self._is_own(reply):
+                    self._ignore(reply)
+                    continue
+                if reply.err is not None:
+                    raise self._lost(reply.err.payload.to_bytes())
+                if reply.ok is not None:
+                    return self._parse(step.seq, reply.ok)
+            while time.monotonic() < until_s and not self._bus.is_alive(f"worker/{self.name}"):
+                time.sleep(RETRY_S)
+            if time.monotonic() >= until_s:
+                break
+            replies = self._ask("step", self._timeout_s, step.payload, step.header)
         gone = f"worker {self.name!r} is gone: nothing answers {self._key}/step"
         raise WorkerLost(gone, is_of_machine=True)
 
@@ -219,7 +231,9 @@ class RemoteStep:
     worker: RemoteWorker
     seq: int
     replies: zenoh.Handler[zenoh.Reply]
+    payload: bytes
+    header: bytes
 
     def result(self) -> Reply:
         """Wait for the reply; see `RemoteWorker.receive`."""
-        return self.worker.receive(self.seq, self.replies)
+        return self.worker.receive(self)

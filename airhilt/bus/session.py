@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import queue
 import random
 import re
 import socket
@@ -21,6 +23,7 @@ from airhilt.bus.closed import Answer, ClosedBus
 from airhilt.bus.endpoints import is_taken, require_authenticated
 from airhilt.bus.intake import Source, size_filter
 from airhilt.errors import BusError, RendererError
+from airhilt.messages import Clock
 from airhilt.sim.payload import Payload
 
 if TYPE_CHECKING:
@@ -39,6 +42,8 @@ LARGEST_BYTES = 128_000_000
 RECEIVED = 4
 """Number of messages that Zenoh keeps for one subscription; while there is no room for another, it
 lets the senders wait."""
+RETURNS_S = 5.0
+"""Wall time in s in which a program or a run may come back to a router between them."""
 CLOSING_S = 1.0
 """Wall time in s that a program waits for its session to close. Zenoh itself waits for 10 s for a
 connected program that does not read, and then fails."""
@@ -94,6 +99,23 @@ def configuration(
     return config
 
 
+_opened_by: set[int] = set()
+"""Ids of this process, and of those that it was forked from, that have opened a session."""
+
+
+def _opened(config: zenoh.Config) -> zenoh.Session:
+    """Return a session. The threads of Zenoh are not in a fork, where it would wait for ever."""
+    if _opened_by - {os.getpid()}:
+        raise BusError(
+            "this process was forked from one that has had a run or a client on the bus, and has "
+            "not the threads of its bus; expected another way to start it: "
+            "multiprocessing.get_context('spawn')"
+        )
+    session = zenoh.open(config)
+    _opened_by.add(os.getpid())
+    return session
+
+
 def connect_client(
     endpoint: str | None, patience_s: float, tls: Path | None = None, role: Role = "worker"
 ) -> zenoh.Session:
@@ -122,7 +144,7 @@ def connect_client(
     deadline = time.monotonic() + patience_s
     while True:
         try:
-            return zenoh.open(config)
+            return _opened(config)
         except zenoh.ZError as error:
             _require_shared_memory(error)
             if time.monotonic() > deadline:
@@ -150,21 +172,61 @@ def _keys(folder: Path | None, holder: Holder) -> Keys | None:
     return read_keys(folder, holder)
 
 
-def find_run(session: zenoh.Session, patience_s: float) -> str:
+def find_run(session: zenoh.Session, patience_s: float, run: str | None = None) -> str:
     """Return the beginning of the keys of the run that answers at the endpoint of a session.
+
+    Parameters
+    ----------
+    run
+        Name of the run; None: there is one only.
 
     Raises
     ------
     BusError
-        None answers in time.
+        None answers in time, or several do.
     """
     deadline = time.monotonic() + patience_s
     while time.monotonic() < deadline:
-        for reply in session.get(f"{ROOT}/*/clock", timeout=1.0):
-            if reply.ok is not None:
-                return str(reply.ok.key_expr).removesuffix("/clock")
+        replies = session.get(f"{ROOT}/{run or '*'}/clock", timeout=1.0)
+        found = {str(each.ok.key_expr).split("/")[1] for each in replies if each.ok is not None}
+        if len(found) > 1:
+            raise BusError(
+                f"several runs answer at the endpoint: {', '.join(sorted(found))}; expected the "
+                "name of one, with --run"
+            )
+        if found:
+            return f"{ROOT}/{found.pop()}"
         time.sleep(0.1)
-    raise BusError(f"no run answers at the endpoint after {patience_s:g} s")
+    named = "" if run is None else f" {run!r}"
+    raise BusError(f"no run{named} answers at the endpoint after {patience_s:g} s")
+
+
+def wait_until_over(session: zenoh.Session, prefix: str) -> None:
+    """Wait until a run says that it is over, or has been out of reach for `RETURNS_S`.
+
+    ``prefix`` is the beginning of its keys.
+    """
+    news: queue.SimpleQueue[bool | None] = queue.SimpleQueue()
+
+    def hear_clock(sample: zenoh.Sample) -> None:
+        clock = Clock.model_validate_json(sample.payload.to_bytes())
+        if clock.phase in ("finished", "stopped"):
+            news.put(None)
+
+    kept: list[Any] = [
+        session.declare_subscriber(f"{prefix}/clock", hear_clock),
+        session.liveliness().declare_subscriber(
+            f"{prefix}/run", lambda each: news.put(each.kind == zenoh.SampleKind.PUT), history=True
+        ),
+    ]
+    is_there: bool | None = True
+    while is_there is not None:
+        try:
+            is_there = news.get(timeout=None if is_there else RETURNS_S)
+        except queue.Empty:
+            break
+    for subscriber in kept:
+        subscriber.undeclare()
 
 
 class Bus(ClosedBus):
@@ -212,7 +274,7 @@ class Bus(ClosedBus):
         }
         settings |= keys.settings if keys else {}
         try:
-            self.session = zenoh.open(configuration("router", "listen", self.endpoint, settings))
+            self.session = _opened(configuration("router", "listen", self.endpoint, settings))
         except zenoh.ZError as error:
             _require_shared_memory(error)
             advice = (
@@ -304,6 +366,16 @@ class Bus(ClosedBus):
         thread.start()
         self._hearing.append((subscriber, thread))
 
+    @property
+    def returns_s(self) -> float:
+        """Wall time in s in which a program may come back: 0 unless a router is connected."""
+        return RETURNS_S if self.session.info.routers_zid() else 0.0
+
+    def is_alive(self, key: str) -> bool:
+        """Return whether a liveliness token is declared now; the key is relative to the run."""
+        tokens = self.session.liveliness().get(f"{self.prefix}/{key}")
+        return any(reply.ok is not None for reply in tokens)
+
     def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
         """Call ``changed`` with a worker's name and whether it is there (on another thread)."""
         self._watch("worker/*", lambda key, is_there: changed(key.rpartition("/")[2], is_there))
@@ -323,8 +395,7 @@ class Bus(ClosedBus):
 
     def has_holder(self, seat_key: str, holder: str) -> bool:
         """Return whether the liveliness token of a holder is declared now."""
-        key = f"{self.prefix}/{seat_key}/holder/{holder}"
-        return any(reply.ok is not None for reply in self.session.liveliness().get(key))
+        return self.is_alive(f"{seat_key}/holder/{holder}")
 
     def answer(self, pattern: str, asked: Callable[[str, bytes, Answer], None]) -> None:
         """Call ``asked`` with key (relative to the run), payload and answer of each query.

@@ -104,18 +104,18 @@ def seat_states(
         frequencies_khz = stations.selectable(seat)
         yield SeatState(
             seat=seat,
-            **_equipment_of(seat, setup.scenario),
+            **seat_equipment(seat, setup.scenario),
             frequencies_khz=frequencies_khz,
             tuned_khz=frequencies_khz,
             has_own_receiver=seat in radio.receivers,
-            is_recognised=participants.does("asr"),
+            recogniser=participants.recogniser(options),
             voice_is_recorded=options.voice_recording,
             may_pause=options.pause,
             phraseology=radio.phraseology,
         )
 
 
-def _equipment_of(seat: str, scenario: Scenario) -> dict[str, Any]:
+def seat_equipment(seat: str, scenario: Scenario) -> dict[str, Any]:
     """Return the fields that say what a person at a seat is shown."""
     for spec in scenario.actors:
         if spec.callsign == seat and not isinstance(spec, WildlifeSpec):

@@ -16,6 +16,7 @@ from airhilt.host.text import readable
 from airhilt.messages import (
     UNREGISTERED,
     ActorCommand,
+    AdsbReport,
     Advisory,
     AdvisoryAudio,
     Detections,
@@ -23,6 +24,7 @@ from airhilt.messages import (
     DroppedMessages,
     LeaveSeat,
     Limit,
+    LiveReport,
     Message,
     PageRefusal,
     PartialTranscript,
@@ -46,6 +48,7 @@ HEARD: Mapping[str, type[Message]] = {
     "asr/*/partial": PartialTranscript,
     "vision/*": Detections,
     "command/*": ActorCommand,
+    "live/*": LiveReport,
     PAGE: PageRefusal,
     "tts/*": AdvisoryAudio,
 }
@@ -200,8 +203,8 @@ class ExternalPrograms:
                 f"a program that takes no grants published on {key}: going on in real time"
             )
 
-    def take_recorded(self, key: str, data: bytes) -> None:
-        """Let a message of an earlier run count, which was accepted there."""
+    def take_accepted(self, key: str, data: bytes) -> None:
+        """Let a message count of an earlier run, which was accepted there, or of this process."""
         if key not in self._act_keys:
             self.take(key, data)
             return
@@ -230,14 +233,19 @@ class ExternalPrograms:
         if isinstance(message, PageRefusal):
             self._context.event("refused", PAGE, readable(message.text))
             return
-        stamped = message.model_copy(update={"t_ns": self._director.now_ns})
+        now_ns = self._director.now_ns
+        stamped = message.model_copy(update={"t_ns": now_ns})
         if isinstance(stamped, Advisory) and not self.has_decision:
             self.has_decision = True
             self._context.set_modality("decision", "on")
         self._context.router.heard(key, stamped, UNREGISTERED)
+        if isinstance(stamped, LiveReport):
+            times = {"t_adsb_in_ns": now_ns, "t_adsb_out_ns": now_ns}
+            report = AdsbReport(**stamped.model_dump() | times)
+            self._context.router.publish(f"adsb/{report.icao24}", report)
 
     def _require_allowed(self, key: str, message: Message) -> None:
-        """Complain about an advisory of a worker, and a command to an actor left to a person."""
+        """Complain about what is of a worker, of a person at a seat, or of an actor."""
         if isinstance(message, Advisory):
             for name in self._workers:
                 if message.id.startswith(f"{name}-"):
@@ -250,6 +258,14 @@ class ExternalPrograms:
                 f"a program published on {key!r}, whose actor is left to a person; expected an act "
                 f"of who has the seat, on seat/{key.split('/')[1]}/do"
             )
+
+        if isinstance(message, LiveReport):
+            actor = self._context.setup.scenario.callsigns.get(message.icao24)
+            if actor is not None or key != f"live/{message.icao24}":
+                raise WorkerError(
+                    f"a program published on {key!r} a report of {actor or message.icao24}; "
+                    "expected one of an aircraft that is not in the scenario, on its own key"
+                )
 
     def take_refused(self, key: str, cause: str) -> None:
         """Record a refusal whose message is unavailable, such as that of an earlier run."""
@@ -300,7 +316,7 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
         )
     family, _, rest = key.partition("/")
     kind = HEARD.get(f"{family}/*" if rest else key)
-    if kind not in (ActorCommand, PageRefusal):
+    if kind not in (ActorCommand, LiveReport, PageRefusal):
         return parse_output(UNREGISTERED, key, data, now_ns)
     try:
         return kind.model_validate_json(data)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from dataclasses import dataclass
 
 from airhilt.host.notebook import NotebookLine
@@ -73,3 +74,11 @@ class NotebookProgress(Observer):
     def notice(self, text: str) -> None:
         """Show a line that stays."""
         self._line.notice(text)
+
+
+class WarningObserver(Observer):
+    """Lets Python warn of what the user should know at once."""
+
+    def notice(self, text: str) -> None:
+        """Warn."""
+        warnings.warn(text, RuntimeWarning, stacklevel=2)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from airhilt.bus.attach import attach, require_different_names
 from airhilt.bus.closed import ClosedBus
@@ -13,7 +14,7 @@ from airhilt.cosim.equipment import equipment_of, require_no_equipment
 from airhilt.cosim.option_checks import inputs_given
 from airhilt.cosim.reference_workers import reference_workers, speak_min_level
 from airhilt.cosim.setup import Setup
-from airhilt.engine_families import ASSISTANTS, EXTERNAL
+from airhilt.engine_families import ASSISTANTS, EXTERNAL, RECOGNISERS
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality, Severity
 from airhilt.options import Options
@@ -42,6 +43,14 @@ class Participants:
     def does(self, modality: Modality) -> bool:
         """Return whether a worker is there for a modality."""
         return any(worker.description.modality == modality for worker in self.workers)
+
+    def recogniser(self, options: Options) -> Literal["none", "embedded", "other"]:
+        """Return what recognises spoken calls; `SeatState` has the meaning of the words."""
+        found = [worker for worker in self.workers if worker.description.modality == "asr"]
+        if not found:
+            return "none"
+        ships = options.asr == RECOGNISERS.default
+        return "embedded" if ships and found[0].where == "in process" else "other"
 
     @property
     def speak_min_level(self) -> Severity:
@@ -102,13 +111,12 @@ def connect(
     taken = {worker.description.modality for worker in workers}
     assistant = _assistant(options, recorded.is_replay, "decision" in taken, programs)
     options = options.model_copy(update={"assistant": assistant})
+    require = _no_service(options) if recorded.is_replay else lambda _: None
     made = [
         _participant(worker, "in process", is_of_user(options, worker.description.modality))
-        for worker in reference_workers(options, setup.scenario, taken)
+        for worker in reference_workers(options, setup.scenario, taken, require)
     ]
-    if recorded.is_replay:
-        _require_no_service(made, options)
-    else:
+    if not recorded.is_replay:
         used = engines_in_use(options, (), made)
         for sentence in other_machines(options, used):
             notice(sentence)
@@ -147,19 +155,21 @@ def _assistant(
     return assistant
 
 
-def _require_no_service(workers: Sequence[Participant], options: Options) -> None:
-    """Complain about a worker of a replay that would ask a service.
+def _no_service(options: Options) -> Callable[[Modality], None]:
+    """Return what complains about a worker of a replay that would ask a service.
 
     A run records what each service answers, so that its replay sends nothing, and no key, to the
     addresses in a record that may be somebody else's.
     """
-    for worker in workers:
-        if is_remote(options, worker.description.modality):
+
+    def require(modality: Modality) -> None:
+        if is_remote(options, modality):
             raise WorkerError(
-                f"worker {worker.description.name!r}: the record names a service for it, and has "
-                "none of its answers; expected a record that was not changed: a replay asks no "
-                "service"
+                f"worker for {modality}: the record names a service for it, and has none of its "
+                "answers; expected a record that was not changed: a replay asks no service"
             )
+
+    return require
 
 
 def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:

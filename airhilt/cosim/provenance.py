@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from pathlib import Path
 
 from airhilt.cosim.engines_in_use import UsedEngine, engines_in_use
 from airhilt.cosim.participants import Participants
@@ -50,9 +49,9 @@ def run_info(
 def _model_files(setup: Setup, engines: Sequence[UsedEngine]) -> dict[str, str]:
     """Return the SHA-256 of each file or folder of the user that an engine works with, by path."""
     found = channel_files(setup.scenario.radio) if setup.options.speech else {}
-    for _, _, argument in engines:
-        if argument and Path(argument).exists():
-            found[argument] = content_sha256(Path(argument))
+    for _, engine, argument in engines:
+        if argument and (path := engine.files(argument)).exists():
+            found[str(path)] = content_sha256(path)
     return found
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 
 from airhilt.assistant.language_model import LanguageModelSettings
 from airhilt.assistant.reference import decision_worker, reference_worker, vision_worker
@@ -14,7 +14,10 @@ from airhilt.workers.protocol import Worker
 
 
 def reference_workers(
-    options: Options, scenario: Scenario, taken: Collection[Modality]
+    options: Options,
+    scenario: Scenario,
+    taken: Collection[Modality],
+    require: Callable[[Modality], None] = lambda _: None,
 ) -> list[Worker]:
     """Return the workers that a run needs and has not got.
 
@@ -26,6 +29,9 @@ def reference_workers(
     ----------
     taken
         Modalities of the workers that are there.
+    require
+        Called with the modality of each worker before it is made, which may ask a service; it
+        raises what forbids that.
 
     Raises
     ------
@@ -37,9 +43,11 @@ def reference_workers(
     workers: list[Worker] = []
     is_enhanced = "enhancement" in taken or options.enhancer != NONE
     if options.enhancer != NONE and "enhancement" not in taken:
+        require("enhancement")
         workers.append(reference_worker("enhancement", options.enhancer))
     is_read = radio.topology == "asr_first" or options.seat or (is_assisted and "asr" in given)
     if options.speech and is_read and "asr" not in taken:
+        require("asr")
         workers.append(
             reference_worker(
                 "asr",
@@ -51,6 +59,7 @@ def reference_workers(
     deciding: list[Worker] = []
     assistant = options.assistant or ASSISTANTS.default
     if assistant not in ASSISTANTS.words and "decision" not in taken:
+        require("decision")
         deciding.append(
             decision_worker(
                 assistant,
@@ -62,11 +71,13 @@ def reference_workers(
             )
         )
     if options.speech and "tts" not in taken and is_assisted:
+        require("tts")
         level = speak_min_level(worker.description for worker in deciding)
         settings = {"style": radio.phraseology, "speak_min_level": level}
         workers.append(reference_worker("tts", options.tts, **settings))
     has_pictures = options.cameras and bool(scenario.cameras) and "vision" in given
     if has_pictures and options.detector != NONE and "vision" not in taken and is_assisted:
+        require("vision")
         workers.append(vision_worker(options.detector, shares_detections=options.share_pictures))
     return workers + deciding
 

@@ -7,11 +7,11 @@ Data flows one way: actors, sensors, workers, advisories, crews.
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
@@ -36,7 +36,7 @@ from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
 from airhilt.host.machine import cpu_s, give_memory_back
 from airhilt.host.text import LONGEST_LINE, readable
-from airhilt.messages import WorkerDescription
+from airhilt.messages import Message, WorkerDescription
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans, Start
 from airhilt.metrics.result import Result
@@ -109,7 +109,22 @@ def run(
     KeyboardInterrupt
         Likewise.
     """
-    options, observer = options or Options(), observer or Observer()
+    with connected(
+        scenario, options or Options(), observer or Observer(), recorded, workers, keeper
+    ) as simulation:
+        return _run_and_report(simulation)
+
+
+@contextmanager
+def connected(
+    scenario: Scenario,
+    options: Options,
+    observer: Observer,
+    recorded: Recorded | None = None,
+    workers: Sequence[Worker] = (),
+    keeper: RendererKeeper | None = None,
+) -> Iterator[Simulation]:
+    """Give the simulation of a run that is about to begin; see `run` for arguments and errors."""
     recorded = recorded or Recorded()
     with ExitStack() as stack:
         processes = stack.enter_context(
@@ -133,10 +148,9 @@ def run(
         log = stack.enter_context(closing(LogWriter(setup.folder.log_path)))
         log.flush()  # A run that is killed at once leaves a log that can be read.
         latency_log = stack.enter_context(closing(LatencyLog(setup.folder.latency_path)))
-        simulation = Simulation(
-            setup, participants, pace, vision, bus, observer, log=log, latency_log=latency_log
+        yield Simulation(
+            setup, info, participants, pace, vision, bus, observer, log=log, latency_log=latency_log
         )
-        return _run_and_report(simulation, info, setup.folder.path)
 
 
 def _open_bus(name: str, options: Options, observer: Observer) -> ClosedBus:
@@ -155,26 +169,36 @@ def _open_bus(name: str, options: Options, observer: Observer) -> ClosedBus:
     return bus
 
 
-def _run_and_report(simulation: Simulation, info: RunInfo, folder: Path) -> Result:
+def _run_and_report(simulation: Simulation) -> Result:
     with interruptible(simulation.interrupt):
-        if not info.options.report:
-            return simulation.run(info)
+        simulation.advance()
         try:
-            result = simulation.run(info)
+            result = simulation.finish()
         except BaseException:
             with suppress(AirhiltError):  # What stopped the run is the news, not its report.
-                write_report(folder)
+                simulation.report()
             raise
-        write_report(folder)
+        simulation.report()
         return result
 
 
 class Simulation:
-    """The parts of one run, connected with its Director."""
+    """The parts of one run, connected with its Director.
+
+    Its caller calls `advance`, at once to the end or in steps, and then `finish`.
+
+    Attributes
+    ----------
+    setup
+        What the run is made of.
+    router
+        Whoever wants the messages of the run puts itself among the listeners of this.
+    """
 
     def __init__(
         self,
         setup: Setup,
+        info: RunInfo,
         participants: Participants,
         pace: Pace,
         vision: Vision,
@@ -184,18 +208,17 @@ class Simulation:
         log: LogWriter,
         latency_log: LatencyLog,
     ) -> None:
-        self._setup = setup
+        self.setup, self._info = setup, info
         self._participants = participants
         self._observer = observer
         self._vision = vision
         self._director = Director(pace)
-        self._log = log
-        self._latency_log = latency_log
-        self._router = MessageRouter(bus, log)
-        self._context = context = RunContext(setup, self._director, self._router, observer)
+        self._log, self._latency_log = log, latency_log
+        self.router = MessageRouter(bus, log)
+        self._context = context = RunContext(setup, self._director, self.router, observer)
         stations = Stations(setup.actors, setup.site, setup.scenario)
         self._seats = Seats(
-            seat_states(setup, participants, stations), self._router.publish, self._director
+            seat_states(setup, participants, stations), self.router.publish, self._director
         )
         self._world = WorldLoop(context, self._seats)
         self._collector = self._make_collector()
@@ -208,14 +231,15 @@ class Simulation:
             partial(context.lose_modality, "radio", "radio_lost", "radio"),
             failed=lambda cause: observer.notice(f"asks the voices again: {cause}"),
         )
-        self._radio = self._make_radio(stations)
-        self._world.radio = self._radio
+        self._radio = self._world.radio = self._make_radio(stations)
         self._radio.start()
         self._pace_control = PaceControl(context, self._seats, self._radio, bus)
         if setup.seats:
             self._director.lose_time(MOST_BEHIND_NS, self._pace_control.stall)
         self._questions = WorkloadQuestions(context, self._seats, self._pace_control)
         self._sensors: list[Sensor] = []
+        self._failures: list[BaseException] = []
+        self._begun: tuple[float, float] | None = None
         self._connect()
         self._vision.mount(context, self._world)
         self._schedule()
@@ -223,7 +247,7 @@ class Simulation:
 
     def _connect(self) -> None:
         """Let the parts take in the messages of the run, in this order."""
-        setup, router = self._setup, self._router
+        setup, router = self.setup, self.router
         recorder = AudioRecorder(
             setup.folder.audio_path, keeps_voices=setup.options.voice_recording
         )
@@ -247,7 +271,7 @@ class Simulation:
             router.attributed.append(notices.take)
 
     def _make_collector(self) -> Collector:
-        setup, world = self._setup, self._world
+        setup, world = self.setup, self._world
         starts = {
             callsign: Start(
                 actor.body.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE,
@@ -277,12 +301,12 @@ class Simulation:
     def _make_advisory_delivery(self) -> AdvisoryDelivery:
         return AdvisoryDelivery(
             self._director,
-            self._setup.actors,
+            self.setup.actors,
             self._context.event,
             self._world.tell,
             is_voiced=self._participants.does("tts"),
             speak_min_level=self._participants.speak_min_level,
-            is_on_frequency=self._setup.options.advisory_channel == "frequency",
+            is_on_frequency=self.setup.options.advisory_channel == "frequency",
             seats=self._seats,
         )
 
@@ -290,15 +314,15 @@ class Simulation:
         return WorkerPool(
             self._director,
             self._participants.workers,
-            self._setup.latency,
-            self._setup.options.seed,
-            publish=self._router.publish,
+            self.setup.latency,
+            self.setup.options.seed,
+            publish=self.router.publish,
             done=self._step_done,
             lost=self._worker_lost,
         )
 
     def _make_radio(self, stations: Stations) -> RadioConversation:
-        setup, participants = self._setup, self._participants
+        setup, participants = self.setup, self._participants
         channel = None
         if setup.options.advisory_channel == "frequency":
             channel = AdvisoryChannel(
@@ -313,7 +337,7 @@ class Simulation:
             setup.options.seed,
             self._world,
             RadioNotices(self._context, self._world, self._backend),
-            self._router.publish,
+            self.router.publish,
             self._seats,
         )
         return RadioConversation(context, channel)
@@ -326,17 +350,17 @@ class Simulation:
         every(SECOND_NS, self._pace_control.publish_clock, Priority.OBSERVE)
         every(SECOND_NS, self._flush_logs, Priority.OBSERVE, first_ns=SECOND_NS)
         every(SNAPSHOT_PERIOD_NS, self._tell_observer, Priority.OBSERVE)
-        duration_ns = seconds_to_ns(self._setup.scenario.duration_s)
+        duration_ns = seconds_to_ns(self.setup.scenario.duration_s)
         director.at(duration_ns, self._questions.end, Priority.OBSERVE)
         self._world.schedule_occurrences()
-        self._schedule_recorded(self._setup.recorded)
+        self._schedule_recorded(self.setup.recorded)
 
     def _schedule_recorded(self, recorded: Recorded) -> None:
         """Let what came from other processes in an earlier run come at its time."""
         if recorded.end_ns is not None:
             self._director.at(recorded.end_ns + 1, self._director.stop, Priority.PHYSICS)
         for message in recorded.unregistered:
-            take = partial(self._programs.take_recorded, message.key, message.data)
+            take = partial(self._programs.take_accepted, message.key, message.data)
             self._director.at(message.t_ns, take, Priority.SCRIPT)
         for event in recorded.refused:
             refuse = partial(self._programs.take_refused, event.subject, event.text)
@@ -350,48 +374,90 @@ class Simulation:
     def _serve(self, bus: ClosedBus) -> None:
         """Notice workers that end, and hear what other programs publish by themselves."""
         expected = set(self._participants.attached)
+        leaving: dict[str, threading.Timer] = {}
+        returns_s = bus.returns_s
+
+        def give_up(name: str) -> None:
+            expected.discard(name)
+            self._director.post(partial(self._gone, name))
 
         def changed(name: str, alive: bool) -> None:
-            if not alive and name in expected:
-                expected.discard(name)
-                self._director.post(partial(self._gone, name))
+            if name not in expected:
+                return
+            if alive and name in leaving:
+                leaving.pop(name).cancel()
+            elif not alive and returns_s:
+                leaving[name] = timer = threading.Timer(returns_s, give_up, (name,))
+                timer.daemon = True
+                timer.start()
+            elif not alive:
+                give_up(name)
 
         bus.watch_workers(changed)
         self._programs.serve(bus)
 
     # --- the run ----------------------------------------------------------------------------
 
-    def run(self, info: RunInfo) -> Result:
-        """Run to the end, and finish the run folder whatever happens."""
-        begun_wall, begun_cpu_s = time.perf_counter(), cpu_s()
-        failures: list[BaseException] = []
-        folder = self._setup.folder
-        with _kept(failures):
-            self._set_modalities()
-            self._brief()
-            self._sensors += start_sensors(self._setup.sensor_types, self._sensor_context())
-            self._vision.start()
-            self._wait_for_seats()
-            self._director.run()
+    def advance(self, until_ns: int | None = None) -> bool:
+        """Run to the end, or up to the events of a time; return true if the run goes on from there.
+
+        What fails is kept, and ends the run: `finish` raises it.
+        """
+        with _kept(self._failures):
+            if self._begun is None:
+                self._begin()
+            return self._director.run(until_ns)
+        return False
+
+    def _begin(self) -> None:
+        self._begun = time.perf_counter(), cpu_s()
+        self._set_modalities()
+        self._brief()
+        self._sensors += start_sensors(self.setup.sensor_types, self._sensor_context())
+        self._vision.start()
+        self._wait_for_seats()
+
+    def finish(self, cause: str = "") -> Result:
+        """Finish the run folder, and raise what stopped the run.
+
+        Parameters
+        ----------
+        cause
+            Why its caller ends the run before its end; empty: it came to its end.
+        """
+        failures, folder = self._failures, self.setup.folder
         if failures and isinstance(failures[0], KeyboardInterrupt):
             self._observer.notice(f"interrupted; {folder.path} is complete up to here")
-        wall_s = time.perf_counter() - begun_wall
-        used_s = cpu_s() - begun_cpu_s
+        begun_wall, begun_cpu_s = self._begun or (time.perf_counter(), cpu_s())
+        wall_s, used_s = time.perf_counter() - begun_wall, cpu_s() - begun_cpu_s
         sensed = self._measurements_in_hand(failures)
         with _kept(failures):
-            self._close_logs(_cause(failures), sensed)
+            self._close_logs(_cause(failures) or cause, sensed)
         with _kept(failures):
-            summary = self._summary(_cause(failures), wall_s, used_s)
+            summary = self._summary(_cause(failures) or cause, wall_s, used_s)
             folder.write_summary(summary)
             for sentence in summary.too_slow:
                 self._observer.notice(sentence)
         with _kept(failures):
-            folder.write_info(self._final_info(info, _cause(failures)))
+            folder.write_info(self._final_info(_cause(failures) or cause))
         error = self._first(failures) if failures else None
         self._clear()
         if error is not None:
             raise error
         return Result(folder, summary)
+
+    def post(self, key: str, message: Message) -> None:
+        """Let a message of a program of this process count, between the next two events.
+
+        The log has it as one of another process, so that a replay has it too.
+        """
+        take = partial(self._programs.take_accepted, key, message.model_dump_json().encode())
+        self._director.post(take)
+
+    def report(self) -> None:
+        """Write the report of a run that is finished, if it is to have one."""
+        if self.setup.options.report:
+            write_report(self.setup.folder.path)
 
     def interrupt(self) -> None:
         """Stop after the event in hand."""
@@ -401,7 +467,7 @@ class Simulation:
         """Let go of what refers back to its owner, so that the run leaves nothing in memory."""
         self._questions.close()
         self._director.clear()
-        self._router.clear()
+        self.router.clear()
         self._world.clear()
         del self._pool
 
@@ -430,14 +496,14 @@ class Simulation:
             for step in (*self._pool.unfinished(), *sensed):
                 self._latency_log.step(step)
 
-    def _final_info(self, info: RunInfo, cause: str) -> RunInfo:
+    def _final_info(self, cause: str) -> RunInfo:
         """Return what ``run.json`` says of the run when it has ended."""
-        return info.model_copy(
+        return self._info.model_copy(
             update={
                 "phase": "stopped" if cause else "finished",
                 "cause": cause,
                 "unregistered_programs": self._programs.heard,
-                "files": self._setup.folder.manifest(),
+                "files": self.setup.folder.manifest(),
             }
         )
 
@@ -454,11 +520,11 @@ class Simulation:
         now_ns = self._director.now_ns
         return self._collector.summary(
             {
-                "seed": self._setup.options.seed,
+                "seed": self.setup.options.seed,
                 "assistant": self._participants.assistant,
                 "outcome": f"stopped: {cause}" if cause else "finished",
                 "latency_sources": {
-                    ADSB: self._setup.latency.of(ADSB).own_text,
+                    ADSB: self.setup.latency.of(ADSB).own_text,
                     **self._pool.latency_sources(),
                 },
                 "too_slow": self._pool.too_slow(),
@@ -473,15 +539,15 @@ class Simulation:
 
     def _wait_for_seats(self) -> None:
         """Let the run stand still at its start until its seats are taken, if that is wanted."""
-        if not self._setup.options.wait_for_seats:
+        if not self.setup.options.wait_for_seats:
             return
         self._pace_control.wait_for_seats()
         if not self._context.is_replay and not isinstance(self._director.pace, Virtual):
-            seats = ", ".join(self._setup.seats)
+            seats = ", ".join(self.setup.seats)
             self._observer.notice(f"the run begins when this is taken: {seats}")
 
     def _sensor_context(self) -> SensorContext:
-        setup, world = self._setup, self._world
+        setup, world = self.setup, self._world
         return SensorContext(
             director=self._director,
             scenario=setup.scenario,
@@ -490,7 +556,7 @@ class Simulation:
             latency=setup.latency,
             seed=setup.options.seed,
             state_at_ns=lambda: world.ticked_ns,
-            publish=self._router.publish,
+            publish=self.router.publish,
             step_done=self._latency_log.step,
             subscribed=self._participants.subscribed,
         )
@@ -528,9 +594,9 @@ class Simulation:
     # --- what is told -----------------------------------------------------------------------
 
     def _brief(self) -> None:
-        setup = self._setup
+        setup = self.setup
         briefing = briefing_of(setup.scenario, setup.site, setup.options.advisory_channel)
-        self._router.publish("briefing", briefing)
+        self.router.publish("briefing", briefing)
         has_voice = self._participants.does("tts")
         self._seats.open(
             has_sound=self._backend.has_sound,
@@ -538,8 +604,8 @@ class Simulation:
         )
 
     def _set_modalities(self) -> None:
-        scenario, does = self._setup.scenario, self._participants.does
-        given = self._setup.options.given_modalities
+        scenario, does = self.setup.scenario, self._participants.does
+        given = self.setup.options.given_modalities
         is_equipped = any(
             not isinstance(spec, WildlifeSpec) and spec.transponder.has_adsb
             for spec in scenario.actors
@@ -560,7 +626,7 @@ class Simulation:
         self._observer.snapshot(
             Snapshot(
                 self._director.now_ns / SECOND_NS,
-                self._setup.scenario.duration_s,
+                self.setup.scenario.duration_s,
                 horizontal_m,
                 vertical_m,
                 self._collector.last_advisory,

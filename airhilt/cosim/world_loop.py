@@ -27,6 +27,7 @@ from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.world.actors import Actor, Unable
 from airhilt.world.actors.triggers import Triggers
 from airhilt.world.flight import Aircraft
+from airhilt.world.mover import goes_on
 from airhilt.world.truth.conditions import ConditionCompiler
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import Incursion, RunwayMonitor
@@ -211,7 +212,7 @@ class WorldLoop:
     def has_ended(self) -> bool:
         """Return whether all actors have ended, or a condition that ends the run is true."""
         now_ns = self._director.now_ns
-        all_ended = all(actor.body.ended is not None for actor in self._actors.values())
+        all_ended = not any(goes_on(actor.body) for actor in self._actors.values())
         return all_ended or any(test(now_ns) for test in self._ends)
 
     def closest_approach_ns(self) -> int | None:
@@ -232,9 +233,9 @@ class WorldLoop:
     def _tick(self) -> None:
         now_ns = self._director.now_ns
         for actor in self._actors.values():
-            if actor.body.ended is None:
+            if goes_on(actor.body):
                 self._advance(actor)
-                if actor.body.ended is not None:
+                if not goes_on(actor.body):
                     self._tell_end(actor)
         self.ticked_ns = now_ns
         self.monitor.tick(now_ns)

@@ -25,8 +25,10 @@ from airhilt.host.library import nearest
 LIMIT = "AIRHILT_CACHE_LIMIT_MB"
 """Environment variable with the greatest size of all entries together, in MB."""
 DEFAULT_LIMIT_MB = 2000.0
-KINDS = ("backgrounds", "detections", "pictures", "voices")
+KINDS = ("backgrounds", "detections", "landscapes", "pictures", "voices")
 """Kinds of entries that AIRHILT keeps itself; each is a folder in `cache_folder`."""
+MODELS = "models"
+"""Folder beside the kinds, for models that the user has downloaded: they are no entries."""
 ENTRY = re.compile(r"[0-9a-f]{64}.*\.(entry|partial)")
 """Name of an entry, and of one that is being written."""
 GROWTH = 0.05
@@ -153,7 +155,7 @@ class _File(NamedTuple):
 def _kinds(base: Path) -> list[str]:
     """Return the kinds of AIRHILT, and those of other packages that have a folder."""
     with suppress(OSError), os.scandir(base) as there:
-        return sorted({*KINDS, *(each.name for each in there if each.is_dir())})
+        return sorted({*KINDS, *(each.name for each in there if each.is_dir())} - {MODELS})
     return sorted(KINDS)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
@@ -11,8 +12,12 @@ from typing import Any
 
 import onnxruntime
 
-from airhilt.errors import AirhiltError, SpeechError, first_line
+from airhilt.errors import AirhiltError, SpeechError, first_line, shown
 
+PROVIDERS = "AIRHILT_ONNX_PROVIDERS"
+"""Environment variable with the execution providers of networks, separated by commas, the preferred
+one first; the processor does what is left."""
+CPU = "CPUExecutionProvider"
 LARGEST_FILE_BYTES = 500_000_000
 """Size of the largest file that is loaded."""
 LARGEST_MEMORY_BYTES = 4_000_000_000
@@ -44,12 +49,13 @@ def open_network(
     Raises
     ------
     AirhiltError
-        There is no such file, or no network in it that can be run.
+        There is no such file, no network in it that can be run, or no such execution provider.
     """
     if not path.is_file():
         raise error(f"{subject}: no such file; expected {expected}")
     if path.stat().st_size > LARGEST_FILE_BYTES:
         raise error(f"{subject}: has over {LARGEST_FILE_BYTES:,} bytes; expected {expected}")
+    wanted = providers(error)
     _bound_memory()
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = threads
@@ -59,13 +65,37 @@ def open_network(
     options.add_session_config_entry("session.use_env_allocators", "1")
     try:
         with _after(LONGEST_LOAD_S, lambda: options.set_load_cancellation_flag(True)):
-            return onnxruntime.InferenceSession(
-                str(path), options, providers=["CPUExecutionProvider"]
-            )
+            network = onnxruntime.InferenceSession(str(path), options, providers=wanted)
     except Exception as cause:  # onnxruntime raises classes of its own that share no base
         raise error(
             f"{subject}: no ONNX model that can be run: {first_line(cause)}; expected {expected}"
         ) from None
+    missing = [name for name in wanted if name not in network.get_providers()]
+    if missing:
+        raise error(
+            f"{PROVIDERS} {shown(missing[0])}: onnxruntime cannot load it; install what it needs, "
+            "or leave it out"
+        )
+    return network
+
+
+def providers(error: type[AirhiltError] = AirhiltError) -> list[str]:
+    """Return the execution providers that are asked for, and the processor last.
+
+    Raises
+    ------
+    AirhiltError
+        The installed onnxruntime does not have one of them.
+    """
+    given = [name.strip() for name in os.environ.get(PROVIDERS, "").split(",") if name.strip()]
+    there = onnxruntime.get_available_providers()
+    for name in given:
+        if name not in there:
+            raise error(
+                f"{PROVIDERS} {shown(name)}: the installed onnxruntime has no such execution "
+                f"provider; expected of {', '.join(there)}"
+            )
+    return [*(name for name in given if name != CPU), CPU]
 
 
 def first_look(

@@ -31,6 +31,11 @@ class ServiceHeaders(BaseModel):
     """
 
     model_config = ConfigDict(frozen=True, populate_by_name=True, extra="ignore")
+    run_id: Text | None = Field(
+        default=None,
+        alias="X-Run-Id",
+        description="the same in all requests of one run to an assistant",
+    )
     ts_ms: int | None = Field(
         default=None,
         alias="X-Ts-Ms",

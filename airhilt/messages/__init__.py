@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel, TypeAdapter
 from pydantic_core import from_json
@@ -119,6 +119,7 @@ from airhilt.messages.surveillance import (
     AdsbReport,
     EmergencyState,
     EmitterCategory,
+    LiveReport,
     PlotKind,
     RadarInfo,
     RadarKind,
@@ -170,6 +171,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "radio/{frequency_khz}/audio (closed)": TransmissionClosed,
     "enhanced/{frequency_khz}": EnhancedTransmission,
     "adsb/{icao24}": AdsbReport,
+    "live/{icao24}": LiveReport,
     "radar/{site}/info": RadarInfo,
     "radar/{site}": RadarPlot,
     "surface/{airport}": SurfaceTrack,
@@ -220,12 +222,25 @@ WORKER_OUTPUTS: dict[str, type[Message]] = {
 """Messages that a worker may publish, by the first part of the key; never sensors or truth. Only
 equipment of the world publishes on ``equipment``."""
 
-PIECES: dict[str, TypeAdapter[Any]] = {
-    "radio": TypeAdapter(TransmissionAudio),
-    "seat": TypeAdapter(SeatAudio),
+
+class Pieces(NamedTuple):
+    """The pieces of a transmission, which share a key: the name of their type, and the type."""
+
+    name: str
+    type: TypeAdapter[Any]
+
+
+PIECES = {
+    "radio": Pieces("TransmissionAudio", TypeAdapter(TransmissionAudio)),
+    "seat": Pieces("SeatAudio", TypeAdapter(SeatAudio)),
 }
-"""Types of the pieces of a transmission, by the first part of their key, which ends on ``audio``.
-"""
+"""Pieces by the first part of their key, which ends on ``audio``."""
+
+
+def pieces_of(key: str) -> Pieces | None:
+    """Return what the pieces with a key below ``airhilt/<run>/`` are, None if it has no pieces."""
+    first, *others = key.split("/")
+    return PIECES.get(first) if others[-1:] == ["audio"] else None
 
 
 @lru_cache(maxsize=4096)
@@ -252,9 +267,8 @@ def decode(key: str, data: bytes) -> Message | dict[str, Any]:
     """
     if (model := bus_message(key)) is not None:
         return model.model_validate_json(data)
-    first, *_, last = key.split("/")
-    if first in PIECES and last == "audio":
-        piece: Message = PIECES[first].validate_json(data)
+    if (pieces := pieces_of(key)) is not None:
+        piece: Message = pieces.type.validate_json(data)
         return piece
     content: dict[str, Any] = from_json(data)
     return content

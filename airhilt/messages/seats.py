@@ -336,8 +336,9 @@ class SeatState(Message):
     has_sound: bool = Field(
         default=True, description="false in a run without speech: nobody can be heard"
     )
-    is_recognised: bool = Field(
-        description="true if a recogniser takes part, so that automata understand a spoken call"
+    recogniser: Literal["none", "embedded", "other"] = Field(
+        description="what turns a spoken call into words that automata understand: nothing, the "
+        "model that ships with AIRHILT, which has learned from synthetic voices alone, or another"
     )
     voice_is_recorded: bool
     has_own_receiver: bool = Field(

@@ -6,7 +6,7 @@ from typing import Literal, get_args
 
 from pydantic import Field
 
-from airhilt.messages.base import Message, Nanoseconds
+from airhilt.messages.base import Limit, Message, Nanoseconds
 
 EmitterCategory = Literal[
     "A0", "A1", "A2", "A3", "A4", "A5", "A6", "A7",
@@ -24,8 +24,8 @@ EMERGENCY_STATES: tuple[EmergencyState, ...] = get_args(EmergencyState)
 """All of them, in the order of their codes."""
 
 
-class AdsbReport(Message):
-    """``adsb/<icao24>``: state vector from an ADS-B receiver, in the units of DO-260B."""
+class StateVector(Message):
+    """State vector from an ADS-B receiver, in the units of DO-260B."""
 
     icao24: str = Field(pattern=r"^[0-9a-f]{6}$")
     callsign: str | None = Field(description="null until an identification squitter came through")
@@ -64,6 +64,19 @@ class AdsbReport(Message):
     receiver: str
     t_adsb_in_ns: Nanoseconds = Field(description="the squitter reached the receiver")
     t_adsb_out_ns: Nanoseconds = Field(description="the receiver gave out the report")
+
+
+class AdsbReport(StateVector):
+    """``adsb/<icao24>``: state vector from an ADS-B receiver, in the units of DO-260B."""
+
+
+class LiveReport(StateVector):
+    """``live/<icao24>``: target of a real receiver; the run gives it out on ``adsb/<icao24>``.
+
+    The times are those at which the run gets it.
+    """
+
+    limit = Limit(size_bytes=2_000, rate_hz=1_000)
 
 
 RadarKind = Literal["terminal", "en_route"]

@@ -163,6 +163,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
     first = words[1:2] if words[:1] == [NAME] else words[:1]
     corrects = first in (["negative"], ["correction"])
     kind = _kind(naming, words, present, text, content, corrects)
+    is_unread = (content.is_unread or _is_obscure(kind, rest)) and not content.asked
     match = naming.match
     if named < match.score:
         match = replace(match, score=named)
@@ -186,11 +187,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         instructions=tuple(content.instructions),
         expected=tuple(content.expected),
         asked=tuple(content.asked),
-        unread=(
-            naming.addressed_first
-            and (content.is_unread or _is_obscure(kind, rest))
-            and not content.asked
-        ),
+        unread=naming.addressed_first and is_unread,
         distress=DISTRESS in present,
         urgency=URGENCY in present,
         emergency_descent=EMERGENCY_DESCENT in text,

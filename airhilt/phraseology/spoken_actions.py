@@ -44,6 +44,12 @@ def with_digits(words: str, style: Style) -> str:
     return re.sub(r"[0-9]+", lambda found: speak_digits(found[0], style), words)
 
 
+def speak_place(name: str, style: Style) -> str:
+    """Return the name of a place, with its designator spelled: gate bravo one two."""
+    spelled = re.sub(r"(?<!\S)[0-9]*[A-Z][0-9]*(?!\S)", lambda found: spell(found[0], style), name)
+    return with_digits(spelled, style)
+
+
 @dataclass(frozen=True, slots=True)
 class _Slots:
     """The slots of an instruction in words; a slot without a value has none."""
@@ -63,11 +69,7 @@ class _Slots:
     @property
     def place(self) -> str:
         """Its position: a taxiway spelled, or a place in words."""
-        position = self.told.position or ""
-        spelled = re.sub(
-            r"(?<!\S)[0-9]*[A-Z][0-9]*(?!\S)", lambda found: spell(found[0], self.style), position
-        )
-        return with_digits(spelled, self.style)
+        return speak_place(self.told.position or "", self.style)
 
     @property
     def at(self) -> str:
@@ -157,7 +159,8 @@ def _taxi(of: _Slots) -> str:
     via = ", ".join(spell(each, of.style) for each in of.told.via)
     if not to and not via:
         return "continue"
-    return join("taxi", f"to {to}" if to else "", f"via {via}" if via else "")
+    at = of.at if of.runway else ""
+    return join("taxi", f"to {to}" if to else "", at, f"via {via}" if via else "")
 
 
 def _vacate(of: _Slots) -> str:

@@ -96,6 +96,11 @@ class Overlay:
             self._write(pen, below, lines, SEVERITY_COLOURS[advisory.severity])
         return image
 
+    def picture_in(self, image: Image.Image) -> Image.Image:
+        """Return the picture within an image that was returned, without the bars."""
+        width, height = self._picture_size
+        return image.crop((0, self._row_px, width, self._row_px + height))
+
     def _draw_box(self, pen: ImageDraw.ImageDraw, detection: Detection, strength: float) -> None:
         red, green, blue = COLOURS.get(detection.label, OTHER_COLOUR)
         colour = round(red * strength), round(green * strength), round(blue * strength)

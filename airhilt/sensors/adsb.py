@@ -36,7 +36,7 @@ from airhilt.surveillance.transponders import (
 )
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
-from airhilt.world.mover import Motion
+from airhilt.world.mover import Motion, goes_on
 from airhilt.world.site import FixedSite, ScenarioSite
 
 STAGE = "adsb"
@@ -44,7 +44,8 @@ STAGE = "adsb"
 DECLARED_LATENCY = DeclaredLatency(median_s=0.05, sigma=0.3)
 """Latency of a receiver from the end of a squitter to its report, where it is not measured."""
 LOOK_NS = SECOND_NS // 2
-"""Period at which a transponder that stands on the ground checks for movement, in ns."""
+"""Period at which a transponder that stands checks for movement, or one to come if it is there, in
+ns."""
 
 
 class AdsbType:
@@ -108,7 +109,10 @@ class AdsbSensor(Sensor):
 
     def _squit(self, source: _Source, squitter: _Squitterer) -> None:
         body = source.actor.body
+        if not goes_on(body):
+            return
         if body.ended is not None:
+            self._repeat(source, squitter, self._director.now_ns + LOOK_NS)
             return
         source.transponder.squawk = source.actor.squawk
         source.transponder.emergency = source.actor.emergency

@@ -127,8 +127,11 @@ class Director:
         pace.start(self.now_ns)
         self.pace = pace
 
-    def run(self) -> None:
+    def run(self, until_ns: int | None = None) -> bool:
         """Run events until `stop` is called or none is left; `interrupt` raises KeyboardInterrupt.
+
+        With a time, it returns before the first event that is later; it returns true if the next
+        call goes on from there. A run in steps has the same events as a whole one.
 
         What was posted runs between two instants, never among the events of one, so that it can
         be repeated from its time alone. Where two instants leave no room for it, the second comes
@@ -140,6 +143,8 @@ class Director:
             if self._interrupted:
                 raise KeyboardInterrupt
             t_ns = heap[0][0]
+            if until_ns is not None and t_ns > until_ns:
+                return True
             if self._most_behind_ns is not None:
                 self._lose_time(t_ns, self._most_behind_ns)
             if posted and t_ns > self.now_ns + 1:
@@ -151,6 +156,7 @@ class Director:
                 action()
             else:
                 self._wake.clear()
+        return False
 
     def _lose_time(self, t_ns: int, most_behind_ns: int) -> None:
         """Take the clock anew if the next event, at ``t_ns``, is too late."""

@@ -17,9 +17,11 @@ from airhilt.messages import (
     Message,
     RadarInfo,
     RadarPlot,
+    SeatState,
     SurfaceTrack,
     Transcript,
     Transmission,
+    key_chunk,
 )
 
 
@@ -81,3 +83,23 @@ def heard_by(header: Mapping[str, Any]) -> Audience:
     if "seat" in header:
         return Audience("receiver", header["seat"])
     return Audience("frequency", header["frequency_khz"])
+
+
+def sees(state: SeatState, audience: Audience) -> bool:
+    """Return whether the person at a seat may see something with an audience."""
+    way, of = audience
+    is_unit = state.category == "unit"
+    match way:
+        case "adsb":
+            return is_unit or state.has_adsb_in or of == state.icao24
+        case "surveillance":
+            return is_unit
+        case "frequency":
+            return of in state.frequencies_khz
+        case "advisory":
+            return of in state.recipients
+        case "camera":
+            return of == (None if is_unit else state.seat)
+        case "command":
+            return of == key_chunk(state.seat)
+    return False

@@ -39,6 +39,8 @@ class RunConnection:
         Longest wait for the run, in s.
     tls
         Folder with the keys of the role; None: the run asks for none.
+    run
+        Name of the run; None: there is one only.
 
     Attributes
     ----------
@@ -52,7 +54,7 @@ class RunConnection:
     Raises
     ------
     BusError
-        No run answers there in time, or the keys are none.
+        No run answers there in time, or several do; or the keys are none.
     """
 
     def __init__(
@@ -62,10 +64,11 @@ class RunConnection:
         *,
         patience_s: float = 30.0,
         tls: Path | None = None,
+        run: str | None = None,
     ) -> None:
         self.session = connect_client(endpoint, patience_s, tls, role)
         try:
-            self.prefix = find_run(self.session, patience_s)
+            self.prefix = find_run(self.session, patience_s, run)
         except BaseException:
             close_session(self.session)
             raise

@@ -7,10 +7,10 @@ from typing import Any
 from airhilt.errors import StationError
 from airhilt.host.text import readable
 from airhilt.record import Run
+from airhilt.record.kept_pictures import kept_pictures
 from airhilt.report.data import read_run
 from airhilt.report.sections import GuardedContent, Section
 from airhilt.station.cameras import CameraRecord
-from airhilt.station.pictures import kept_pictures
 from airhilt.station.recorded import KEYS, RecordedMessages
 from airhilt.station.redrawing import RedrawnPictures
 from airhilt.station.sounds import Sounds

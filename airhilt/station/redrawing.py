@@ -20,13 +20,14 @@ from airhilt.errors import RendererError, RendererLost, RunFolderError, first_pr
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import ActorTruth
 from airhilt.record import RunInfo
+from airhilt.record.kept_pictures import encoded
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import ActorSpec, AircraftSpec
 from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.body_states import has_landing_lights_on
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
-from airhilt.sensors.cameras.scene.bodies import BodyState, has_landing_lights_on
-from airhilt.station.pictures import encoded
+from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.units import DEGREE
 from airhilt.world.actors.crew import mesh_at
 from airhilt.world.site import ScenarioSite

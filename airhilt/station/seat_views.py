@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from airhilt.host.text import readable
-from airhilt.messages import SeatState, key_chunk
-from airhilt.station.audiences import EVERYBODY, NOBODY, Audience
+from airhilt.messages import SeatState
+from airhilt.station.audiences import EVERYBODY, NOBODY, Audience, sees
 from airhilt.station.changes import Newest
 from airhilt.units import SECOND_NS
 
@@ -67,37 +67,18 @@ class SeatViews:
             return False
         if state.has_own_receiver:
             return audience == Audience("receiver", state.seat)
-        return audience.way == "frequency" and _sees(state, audience)
+        return audience.way == "frequency" and sees(state, audience)
 
     def sees(self, seat: str | None, audience: Audience) -> bool:
         """Return true if something with this audience is seen at a seat; None: without one."""
         if not self.own or audience == EVERYBODY:
             return True
         state = self._states.get(seat or "")
-        return state is not None and _sees(state, audience)
+        return state is not None and sees(state, audience)
 
     def shows_camera(self, seat: str | None, name: str) -> bool:
         """Return true if the pictures of a camera are seen at a seat."""
         return self.sees(seat, self._cameras.get(name, NOBODY))
-
-
-def _sees(state: SeatState, audience: Audience) -> bool:
-    way, of = audience
-    is_unit = state.category == "unit"
-    match way:
-        case "adsb":
-            return is_unit or state.has_adsb_in or of == state.icao24
-        case "surveillance":
-            return is_unit
-        case "frequency":
-            return of in state.frequencies_khz
-        case "advisory":
-            return of in state.recipients
-        case "camera":
-            return of == (None if is_unit else state.seat)
-        case "command":
-            return of == key_chunk(state.seat)
-    return False
 
 
 def _as_json(state: SeatState) -> dict[str, Any]:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-import threading
 from pathlib import Path
 from typing import Any
 
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.bus.session import ROOT, close_session, connect_client, find_run
+from airhilt.bus.session import (
+    ROOT,
+    close_session,
+    connect_client,
+    find_run,
+    wait_until_over,
+)
 from airhilt.errors import BusError
 from airhilt.messages import Grant, StepOutput, StepReply, parts_of
 from airhilt.sim.worker import Input
@@ -29,7 +34,6 @@ def answer_grants(
 
 
 def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:
-    over = threading.Event()
     description = described(worker)
     name = description.name
     key = f"{prefix}/worker/{name}"
@@ -38,37 +42,43 @@ def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:
         with query:
             query.reply(f"{key}/describe", description.model_dump_json().encode())
 
+    answers: dict[int, tuple[bytes, bytes]] = {}
+    """The last answer, by its number: a run that a cut has kept from it asks again."""
+
     def step(query: zenoh.Query) -> None:
         with query:
             try:
-                payload, attachment = _answer(name, worker, query)
+                grant = _grant(query)
+                if grant.seq not in answers:
+                    answer = _answer(name, worker, grant, query)
+                    answers.clear()
+                    answers[grant.seq] = answer
+                payload, attachment = answers[grant.seq]
             except (Exception, SystemExit) as error:
                 query.reply_err(f"{type(error).__name__}: {error}".encode())
                 raise
             query.reply(f"{key}/step", payload, attachment=attachment)
 
-    def ended(sample: zenoh.Sample) -> None:
-        if sample.kind == zenoh.SampleKind.DELETE:
-            over.set()
-
     kept: list[Any] = [
-        session.liveliness().declare_subscriber(f"{prefix}/run", ended, history=True),
         session.declare_queryable(f"{key}/describe", describe),
         session.declare_queryable(f"{key}/step", step),
         session.liveliness().declare_token(key),
     ]
-    over.wait()
+    wait_until_over(session, prefix)
     for entity in kept:
         entity.undeclare()
 
 
-def _answer(name: str, worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes]:
+def _grant(query: zenoh.Query) -> Grant:
     if query.attachment is None:
         raise BusError("a grant without an attachment")
     try:
-        grant = Grant.model_validate_json(query.attachment.to_bytes())
+        return Grant.model_validate_json(query.attachment.to_bytes())
     except ValidationError as error:
         raise BusError(f"not a grant: {error}") from None
+
+
+def _answer(name: str, worker: Worker, grant: Grant, query: zenoh.Query) -> tuple[bytes, bytes]:
     payload = query.payload.to_bytes() if query.payload is not None else b""
     parts = parts_of(payload, [item.size for item in grant.inputs])
     inputs = [

@@ -10,6 +10,12 @@ from airhilt.geodesy.relative_motion import Kinematics
 from airhilt.geodesy.wgs84 import Place, displaced
 from airhilt.shapes.sizes import Size
 
+NOT_BEGUN = "not_begun"
+"""`Mover.ended` of a body before its recorded track begins: it is not in the world yet."""
+TRACK_ENDED = "track_ended"
+"""`Mover.ended` of a body after its recorded track: it is not in the world any more."""
+ABSENT = frozenset({NOT_BEGUN, TRACK_ENDED})
+
 
 class SurfaceState(NamedTuple):
     """True state of a body on or near the ground at one instant.
@@ -97,7 +103,8 @@ class Mover(Protocol):
     """A body that moves: an aircraft, a vehicle, an animal."""
 
     ended: str | None
-    """Why it does not move any more; None while it moves. Set by whoever finds the reason."""
+    """Why it does not move any more, or not yet (`NOT_BEGUN`); None while it moves. Set by whoever
+    finds the reason."""
 
     @property
     def state(self) -> Motion:
@@ -117,6 +124,11 @@ class Mover(Protocol):
 
     def advance(self) -> None:
         """Move on by one tick; do nothing once it has ended."""
+
+
+def goes_on(body: Mover) -> bool:
+    """Return whether a body moves now, or will."""
+    return body.ended is None or body.ended == NOT_BEGUN
 
 
 @runtime_checkable

@@ -16,7 +16,7 @@ SERVICE = "http://127.0.0.1:9"
 
 @pytest.mark.parametrize("kind", sorted({family.modality for family in FAMILIES}))
 def test_a_worker_is_called_by_its_task_unless_it_has_a_name(kind: str) -> None:
-    engine = SERVICE if kind in ("asr", "tts", "vision") else None
+    engine = SERVICE if kind in ("asr", "tts") else None
     for name in (None, "mine"):
         description = reference_worker(kind, engine, name).description
         assert (description.modality, description.name) == (kind, name or kind)
@@ -29,7 +29,7 @@ def test_there_is_no_other_kind_of_worker() -> None:
 
 @pytest.mark.parametrize(
     ("detector", "shares", "is_shared"),
-    [("embedded", True, True), ("embedded", False, False), (SERVICE, True, False)],
+    [("embedded", True, True), ("embedded", False, False)],
 )
 def test_detections_are_shared_if_that_is_asked_for_and_the_detector_repeats_them(
     detector: str, shares: bool, is_shared: bool

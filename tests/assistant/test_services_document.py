@@ -12,7 +12,7 @@ import pytest
 
 from airhilt.assistant.asr.engine import Call
 from airhilt.assistant.asr.engines.http import HttpAsr
-from airhilt.assistant.decision.engines.http import HttpAssistant
+from airhilt.assistant.decision.engines.http import AssistantService
 from airhilt.assistant.services_document import services_document
 from airhilt.assistant.vision.detector import Shot
 from airhilt.assistant.vision.detectors.http import HttpDetector
@@ -40,7 +40,7 @@ def ask(kind: str, url: str) -> None:
         case "detector":
             HttpDetector(url).detect_shot(PICTURE, SHOT)
         case "assistant":
-            HttpAssistant(url).probe()
+            AssistantService(url).introduction()
 
 
 def test_every_reference_leads_somewhere() -> None:

@@ -10,19 +10,19 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, closing, suppress
+from contextlib import ExitStack, suppress
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
 import pytest
 
-from airhilt.bus import Bus, free_endpoint
-from airhilt.bus.access import WITHOUT_KEYS
+from airhilt.bus import free_endpoint
 from airhilt.bus.bridge import WAITING, Feed, WallClock, datagrams
 from airhilt.errors import BusError
 from airhilt.host import library
 from airhilt.messages import ActorTruth, AdsbReport, Clock, CockpitInstruments
 from airhilt.units import SECOND_NS
+from buses import bus_of_a_run
 
 LONG_S = 120.0
 """Time that a busy machine may take to start a program."""
@@ -173,7 +173,7 @@ class TestFlightGear:
 
     def test_only_the_chosen_aircraft_is_shown_until_the_run_ends(self) -> None:
         with ExitStack() as stack:
-            bus = stack.enter_context(closing(Bus("run", anyone=(*WITHOUT_KEYS, "recorder"))))
+            bus = stack.enter_context(bus_of_a_run("recorder"))
             simulator = stack.enter_context(socket.socket(type=socket.SOCK_DGRAM))
             simulator.bind(("127.0.0.1", 0))
             program = subprocess.Popen(
@@ -295,7 +295,7 @@ def command(name: str, endpoint: str, port: int) -> list[str]:
 def received() -> dict[str, bytes]:
     """Bytes that each bridge gave out of a run of two aircraft, while a client of it hung."""
     with ExitStack() as stack:
-        bus = stack.enter_context(closing(Bus("run")))
+        bus = stack.enter_context(bus_of_a_run())
         ports = {name: free_port() for name in BRIDGES}
         clients = {}
         for name in set(BRIDGES) - set(ON_TCP):
@@ -322,7 +322,7 @@ def received() -> dict[str, bytes]:
 
 def test_a_bridge_ends_with_a_run_that_goes_without_a_word() -> None:
     port = free_port()
-    with closing(Bus("run")) as bus:
+    with bus_of_a_run() as bus:
         program = subprocess.Popen(command("sbs1.py", bus.endpoint, port))
         with connected(port) as client:
 

@@ -13,7 +13,7 @@ import sys
 import time
 from collections import defaultdict
 from collections.abc import Iterator
-from contextlib import ExitStack, closing, suppress
+from contextlib import ExitStack, suppress
 from importlib.util import find_spec
 from typing import Any
 
@@ -23,8 +23,7 @@ from pydantic import BaseModel
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
-from airhilt.bus import Bus, free_endpoint
-from airhilt.bus.access import WITHOUT_KEYS
+from airhilt.bus import free_endpoint
 from airhilt.host import library
 from airhilt.messages import (
     ActorTruth,
@@ -41,6 +40,7 @@ from airhilt.messages import (
     Transmission,
 )
 from airhilt.units import FOOT, KNOT
+from buses import bus_of_a_run
 from reports import REPORT
 
 pytestmark = [
@@ -169,7 +169,7 @@ def heard() -> Iterator[dict[str, list[Any]]]:
     """Messages that a client got of a run that shares its truth, by topic."""
     port = int(free_endpoint().rsplit(":", 1)[1])
     with ExitStack() as stack:
-        bus = stack.enter_context(closing(Bus("run", anyone=(*WITHOUT_KEYS, "recorder"))))
+        bus = stack.enter_context(bus_of_a_run("recorder"))
         bridge = subprocess.Popen(program(bus.endpoint, port))
         client = Client(stack.enter_context(connected(port)))
         deadline = time.monotonic() + LONG_S
@@ -252,7 +252,7 @@ def test_a_client_that_never_reads_does_not_hold_up_the_end() -> None:
     port = int(free_endpoint().rsplit(":", 1)[1])
     sound = bytes(1_000_000)
     header = TRANSMISSION.model_copy(update={"samples": len(sound) // 2}).model_dump_json()
-    with closing(Bus("run")) as bus:
+    with bus_of_a_run() as bus:
         bridge = subprocess.Popen(program(bus.endpoint, port))
         with connected(port) as connection:
             client = Client(connection)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import gc
 import queue
 import re
+import subprocess
+import sys
 import time
 from contextlib import closing
 from pathlib import Path
@@ -45,6 +47,33 @@ def test_a_port_in_use_is_named_with_the_words_of_zenoh() -> None:
     assert "Address already in use (os error 98)" in message
     assert "another program has the port" in message
     assert ".rs:" not in message
+
+
+FORKS = """
+import os
+from contextlib import closing
+from airhilt.bus.session import Bus
+with closing(Bus("before")):
+    pass
+if (child := os.fork()) == 0:
+    try:
+        Bus("after")
+    except Exception as error:
+        print(error, flush=True)
+    os._exit(0)
+os.waitpid(child, 0)
+with closing(Bus("again")):
+    pass
+"""
+
+
+@linux_only
+def test_a_fork_of_a_process_that_had_a_run_is_told_that_it_has_no_bus() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", FORKS], capture_output=True, text=True, check=True, timeout=300
+    )
+    assert "this process was forked from one that has had a run" in done.stdout
+    assert "get_context('spawn')" in done.stdout
 
 
 def test_no_outgoing_connection_is_given_the_port_of_a_run_that_has_not_begun() -> None:

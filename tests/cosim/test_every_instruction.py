@@ -7,6 +7,8 @@ import json
 import random
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, get_args
 
@@ -15,7 +17,7 @@ import pytest
 from airhilt.phraseology import Action, Instruction, parse_call
 from airhilt.phraseology.say import speak_instruction
 from airhilt.units import SECOND_NS
-from airhilt.world.actors.orders import orders_of
+from airhilt.world.actors.orders import orders_of, subject_of
 from seats import calls, contents, logged, said
 from tower_calls import DEPARTURE, GROUND, LAYOUT, SITUATIONS, TOWER, Seen, scenario_of
 
@@ -52,8 +54,11 @@ REPORTS = {"wildlife", "wildlife_gone"}
 EVERY_S = 15.0
 """Time in s from one call to the next: what comes of it comes before."""
 VARIATION_DEG = LAYOUT.airport.magnetic_variation.east_deg
-UNSAID = frozenset({"climb_to_ft"})
-"""Parts of commands that nobody has to say: the level of a published missed approach."""
+FLOWN_S = 240.0
+"""Time in s after two instructions in the air in which it is seen what is flown."""
+UNSAID = frozenset({"climb_to_ft", "level_ft"})
+"""Parts of commands that nobody has to say: the level of a published missed approach, and one on
+the way to a runway that is refused."""
 
 
 def instruction(action: Action) -> Instruction:
@@ -117,30 +122,36 @@ PHASES = {
     "takeoff_roll": "departure", "landed": "rollout", "vehicle_on_runway": "rollout",
 }  # fmt: skip
 """Phases of the situations in which nobody just taxies."""
-PAIRS_OF_EACH = 6
-"""Number of calls with two instructions that each situation gets."""
+PAIRS_OF_EACH = 3
+"""Number of pairs of instructions that each situation gets, in both orders."""
 
 
 def pairs_of(situation: str) -> list[Sequence[Instruction]]:
-    """Return a seeded sample of two instructions that a tower says in one call."""
+    """Return a seeded sample of two instructions that a tower says in one call, in both orders."""
     every = [
         (first, second)
         for firsts, seconds in TOGETHER[PHASES.get(situation, "taxi")]
         for first, second in itertools.product(firsts, seconds)
         if first.action != second.action
     ]
-    return list(random.Random(situation).sample(every, PAIRS_OF_EACH))
+    some = random.Random(situation).sample(every, PAIRS_OF_EACH)
+    return [pair for first, second in some for pair in ((first, second), (second, first))]
 
 
-def faults(situation: str, given: Sequence[Sequence[Instruction]], out: Path) -> list[str]:
-    """Return what is wrong about the answers to calls that are made one after another."""
+def faults(
+    situation: str, given: Sequence[Sequence[Instruction]], out: Path, last_s: float = EVERY_S
+) -> list[str]:
+    """Return what is wrong about the answers to calls that are made one after another.
+
+    What is flown is seen for ``last_s`` after the last of them.
+    """
     callsign, _, first_s = SITUATIONS[situation]
     times_s = [first_s + EVERY_S * number for number in range(len(given))]
     texts = [speak_instruction(callsign, each, "faa") for each in given]
     messages = [
         said("Washington_Tower", time_s, text) for time_s, text in zip(times_s, texts, strict=True)
     ]
-    log = logged(scenario_of(situation, (), times_s[-1] + EVERY_S), out, ["tower"], messages)
+    log = logged(scenario_of(situation, (), times_s[-1] + last_s), out, ["tower"], messages)
     events = [each for each in contents(log, "truth/event") if each["subject"] == callsign]
     spoken = [each for each in calls(log) if each["speaker"] == callsign]
     found = []
@@ -156,38 +167,88 @@ def faults(situation: str, given: Sequence[Sequence[Instruction]], out: Path) ->
             for each in spoken
             if time_s < each["t_tx_ns"] / SECOND_NS <= until_s
         ]
-        if fault := fault_of(each_given, callsign, answers, refused, done):
+        answer = Answer(callsign, answers, refused, done)
+        seen = Seen(log, callsign, time_s) if len(given) == 1 else None
+        fault = answer.fault(each_given) or (seen and not_flown(answer.read_back, seen))
+        if fault:
             found.append(f"{situation}: {text!r} -> {answers!r}: {fault}")
         if any(each["action"] == "contact" for each in done):
             break  # It is on another frequency now.
     return found
 
 
-def fault_of(
-    given: Sequence[Instruction],
-    callsign: str,
-    answers: Sequence[str],
-    refused: Sequence[str],
-    done: Sequence[dict[str, Any]],
-) -> str:
-    """Return what is wrong about the answers to a call and about what was done after them."""
-    for words in refused:
-        if not any(words in each for each in answers):
-            return f"does not say {words!r}"
-        answers = [each.replace(words, "") for each in answers]
-    units = tuple(unit.lower() for unit in (TOWER, GROUND, DEPARTURE))
-    answer = " ".join(each for each in answers if not each.startswith(units))
-    is_asked = "say again" in answer
-    read_back = parse_call(re.sub("say again.*", "", answer), [callsign]).instructions
-    if is_report(answer) and any(each.action == "say" for each in given):
-        read_back = tuple(each for each in read_back if each.action != "altitude")
-    if (wrong := wrongly_done(read_back, callsign, done)) is not None:
-        return wrong
-    told = {each.action for each in read_back}
-    missing = [each.action for each in given if each.action not in told]
-    if "say" in missing and is_report(answer):
-        missing.remove("say")
-    return f"no word of {missing}" if missing and not refused and not is_asked else ""
+@dataclass(frozen=True)
+class Answer:
+    """What somebody says and does after a call."""
+
+    callsign: str
+    said: Sequence[str]
+    refused: Sequence[str]
+    done: Sequence[dict[str, Any]]
+
+    @cached_property
+    def words(self) -> str:
+        """What it says to the tower without what it refuses."""
+        answers = list(self.said)
+        for refused in self.refused:
+            answers = [each.replace(refused, "") for each in answers]
+        units = tuple(unit.lower() for unit in (TOWER, GROUND, DEPARTURE))
+        return " ".join(each for each in answers if not each.startswith(units))
+
+    @cached_property
+    def read_back(self) -> tuple[Instruction, ...]:
+        return parse_call(re.sub("say again.*", "", self.words), [self.callsign]).instructions
+
+    def fault(self, given: Sequence[Instruction]) -> str:
+        """Return what is wrong about it; empty if nothing is."""
+        for words in self.refused:
+            if not any(words in each for each in self.said):
+                return f"does not say {words!r}"
+        read_back = self.read_back
+        if is_report(self.words) and any(each.action == "say" for each in given):
+            read_back = tuple(each for each in read_back if each.action != "altitude")
+        if (wrong := wrongly_done(read_back, self.callsign, self.done)) is not None:
+            return wrong
+        if not read_back and "say again" in self.words:
+            return ""  # It asks about all of the call.
+        told = {each.action for each in read_back}
+        missing = [each for each in given if each.action not in told]
+        if is_report(self.words):
+            missing = [each for each in missing if each.action != "say"]
+        unanswered = len({reason(each) for each in missing}) - len(set(self.refused))
+        unanswered -= len(re.findall(r"\bsay \w+", self.words))
+        return f"no word of {[each.action for each in missing]}" if unanswered > 0 else ""
+
+
+def reason(told: Instruction) -> str:
+    """Return what the reason to refuse an instruction is about: one is said for all about that."""
+    (order,) = orders_of([told], "01", VARIATION_DEG, "AAL123")
+    if order.command is None:
+        return told.action
+    subject = subject_of(order.command)
+    return "flight" if subject in ("level", "speed", "track", "approach") else subject
+
+
+def not_flown(read_back: Sequence[Instruction], seen: Seen) -> str:
+    """Return what of a readback is not seen in the movement afterwards; empty if all is."""
+    now = [each for each in read_back if not each.is_conditional]
+    does = {each.action for each in now}
+    for each in now:
+        match each:
+            case Instruction(action="hold_position" | "stop") if not seen.stands_still():
+                return "does not stand still"
+            case Instruction(action="go_around") if not seen.goes_around():
+                return "does not go around"
+            case Instruction(action="altitude", altitude_ft=float(ft), bound=None):
+                if not seen.altitude(ft) and not seen.comes_nearer_to_ft(ft):
+                    return f"does not fly to {ft:g} ft"
+            case Instruction(action="heading", heading_deg=float(degrees)):
+                if not {"cleared_for_takeoff"} & does and not seen.has_flown_track(degrees):
+                    return f"does not fly heading {degrees:g}"
+            case Instruction(action="cleared_to_land", runway=str(runway)):
+                if seen.lands() and not seen.lands_on(runway):
+                    return f"does not land on runway {runway}"
+    return ""
 
 
 def wrongly_done(
@@ -196,7 +257,9 @@ def wrongly_done(
     """Return how what was done differs from what the words of a readback order."""
     orders = orders_of(read_back, "01", VARIATION_DEG, callsign)
     commands = dict.fromkeys(
-        each.command for each in orders if each.command is not None and each.when is None
+        each.command
+        for each in sorted(orders, key=lambda one: one.rank)
+        if each.command is not None and each.when is None
     )
     ordered = [each.model_dump(mode="json", exclude_none=True) for each in commands]
     is_same = len(done) == len(ordered) and all(
@@ -234,13 +297,15 @@ def test_every_instruction_in_every_situation(situation: str, tmp_path: Path) ->
 
 @pytest.mark.slow
 @pytest.mark.parametrize("situation", list(SITUATIONS))
-def test_each_of_two_instructions_in_one_call_is_done_or_refused(
+def test_each_of_two_instructions_in_one_call_is_flown_or_refused_in_both_orders(
     situation: str, tmp_path: Path
 ) -> None:
+    is_flying = PHASES.get(situation) in ("approach", "circuit", "en_route")
+    last_s = FLOWN_S if is_flying else 2.0 * EVERY_S
     found = [
         each
         for number, pair in enumerate(pairs_of(situation))
-        for each in faults(situation, [pair], tmp_path / str(number))
+        for each in faults(situation, [pair], tmp_path / str(number), last_s)
     ]
     assert found == []
 

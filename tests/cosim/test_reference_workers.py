@@ -8,11 +8,14 @@ from typing import Any
 import pytest
 
 from airhilt.cosim.engines_in_use import is_own_engine, is_remote
+from airhilt.cosim.participants import Participants
 from airhilt.cosim.reference_workers import reference_workers, speak_min_level
 from airhilt.errors import LanguageModelError
 from airhilt.messages import Advisory, Evidence, Modality, Severity, WorkerDescription
 from airhilt.options import Options
 from airhilt.sim.worker import Input
+from airhilt.workers import LocalWorker
+from airhilt.workers.pool import Participant
 from airhilt.world.loading import load
 from decisions import reference
 
@@ -23,7 +26,7 @@ CAUTION = Advisory(
     kind="runway_conflict", severity=Severity.CAUTION, traffic=("AAL123",), message="Go around",
     evidence=Evidence(sources=("adsb",)), t_ready_ns=4_000,
 )  # fmt: skip
-SERVICES = {"asr": SERVICE, "tts": SERVICE, "detector": SERVICE}
+SERVICES = {"asr": SERVICE, "tts": SERVICE}
 
 
 def team(
@@ -32,7 +35,7 @@ def team(
     taken: Collection[Modality] = (),
     **options: Any,
 ) -> list[WorkerDescription]:
-    """Return the workers of a run in which all but the decision are services."""
+    """Return the workers of a run in which recogniser and voice are services."""
     given = Options(assistant=assistant, **{**SERVICES, **options})
     scenario = load("s01b_nominal")
     radio = scenario.radio.model_copy(update={"topology": topology})
@@ -65,6 +68,23 @@ def test_speech_is_recognised_for_automata_and_people_too(
 
 def test_a_program_of_the_user_that_decides_hears_speaks_and_sees() -> None:
     assert does("external") == ["asr", "tts", "vision"]
+
+
+@pytest.mark.parametrize(
+    ("asr", "where", "told"),
+    [
+        ("embedded", ["in process"], "embedded"),
+        ("embedded", ["attached"], "other"),
+        (SERVICE, ["in process"], "other"),
+        ("embedded", [], "none"),
+    ],
+)
+def test_a_seat_is_told_what_recognises_its_calls(asr: str, where: list[Any], told: str) -> None:
+    taken: tuple[Modality, ...] = ("tts", "vision", "decision")
+    (worker,) = reference_workers(Options(asr=SERVICE), load("s01b_nominal"), taken)
+    endpoint = LocalWorker(worker)
+    there = tuple(Participant(worker.description, endpoint, each) for each in where)
+    assert Participants("reference", there, ()).recogniser(Options(asr=asr)) == told
 
 
 @pytest.mark.parametrize("taken", ALL)

@@ -14,7 +14,7 @@ import airhilt
 from airhilt import Input, Output, Scenario, Step
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
-from airhilt.errors import WorkerError
+from airhilt.errors import RunStopped, WorkerError
 from airhilt.messages import Advisory, Evidence, InputSpec, Severity, WorkerDescription
 from airhilt.record import RunFolder, read_log
 
@@ -48,8 +48,8 @@ def test_a_worker_of_the_caller_takes_the_place_of_the_reference_worker(
     encounter: Scenario, tmp_path: Path
 ) -> None:
     result = airhilt.run(
-        encounter, out=tmp_path / "run", workers=[WarnsOnce()], latency="fixed", speech=False,
-        cameras=False,
+        encounter, out=tmp_path / "run", observer=Observer(), workers=[WarnsOnce()],
+        latency="fixed", speech=False, cameras=False,
     )  # fmt: skip
     publishers = {one.publisher for one in read_log(result.folder / "log.mcap")}
     assert "warner" in publishers
@@ -80,8 +80,9 @@ def test_a_run_keeps_nobody_when_it_has_ended(
 
 def test_its_run_replays_from_the_record_without_it(encounter: Scenario, tmp_path: Path) -> None:
     folder = airhilt.run(
-        encounter, out=tmp_path / "run", workers=[WarnsOnce()], speech=False, cameras=False
-    ).folder
+        encounter, out=tmp_path / "run", observer=Observer(), workers=[WarnsOnce()], speech=False,
+        cameras=False,
+    ).folder  # fmt: skip
     assert replay(folder).identical
 
 
@@ -93,6 +94,20 @@ def test_two_workers_of_which_one_could_write_the_ids_of_the_other_are_refused(
     with pytest.raises(WorkerError, match="'warner' and 'warner-b': an id that begins with"):
         airhilt.run(encounter, out=tmp_path / "run", workers=[other, WarnsOnce()])
     assert not (tmp_path / "run").exists()
+
+
+def test_python_warns_of_a_worker_that_crashes_and_a_strict_run_stops(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    class Crashes(WarnsOnce):
+        def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
+            raise KeyError("nobody")
+
+    options: dict[str, Any] = {"latency": "fixed", "speech": False, "cameras": False}
+    with pytest.warns(RuntimeWarning, match="lost at .* worker 'warner' failed: KeyError"):
+        airhilt.run(encounter, out=tmp_path / "run", workers=[Crashes()], **options)
+    with pytest.warns(RuntimeWarning), pytest.raises(RunStopped, match="as --strict asks"):
+        airhilt.run(encounter, out=tmp_path / "b", workers=[Crashes()], strict=True, **options)
 
 
 def test_what_is_no_worker_is_refused(encounter: Scenario, tmp_path: Path) -> None:

@@ -53,7 +53,7 @@ class Ending:
         self.given: list[SeatAct] = []
         state = SeatState(
             seat="Washington Tower", frequencies_khz=(119_100,), tuned_khz=(119_100,),
-            is_recognised=False, voice_is_recorded=False,
+            recogniser="none", voice_is_recorded=False,
         )  # fmt: skip
         self.seats = Seats([state], self._published, self.director)
         self.questions = WorkloadQuestions(

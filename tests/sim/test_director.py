@@ -26,6 +26,23 @@ def test_events_run_by_time_then_priority_then_order_of_scheduling(plan: list[An
 
 
 @settings(deadline=None)
+@given(events, st.lists(st.integers(0, 20), max_size=5).map(sorted))
+def test_a_run_in_steps_runs_the_events_of_a_whole_run(plan: list[Any], stops: list[int]) -> None:
+    director, ran = Director(Virtual()), []
+    for number, (t_ns, priority) in enumerate(plan):
+        director.at(t_ns, lambda n=number: ran.append((director.now_ns, n)), priority)  # type: ignore[misc]
+    for stop_ns in stops:
+        goes_on = director.run(stop_ns)
+        assert goes_on == any(t_ns > stop_ns for t_ns, _ in plan)
+        assert {number for _, number in ran} == {
+            number for number, (t_ns, _) in enumerate(plan) if t_ns <= stop_ns
+        }
+    assert not director.run()
+    due = sorted(range(len(plan)), key=lambda n: (*plan[n], n))
+    assert ran == [(plan[n][0], n) for n in due]
+
+
+@settings(deadline=None)
 @given(st.lists(st.integers(0, 5), min_size=1, max_size=30))
 def test_time_never_runs_backwards_when_events_schedule_events(delays: list[int]) -> None:
     director, times, left = Director(Virtual()), [], list(delays)

@@ -38,7 +38,10 @@ def seen_after(situation: str, words: str, folder: Path) -> Seen:
         ("final", "are you able to maintain two one zero knots", "unable 210 kt, maximum 186 kt"),
         ("holding_short", "confirm you are holding short of runway one",
          "affirmative, holding short of runway one"),
-        ("at_stand", "confirm you are holding short of runway one", "negative, at the field"),
+        (
+            "at_stand", "confirm you are holding short of runway one",
+            "negative, at gate bravo one two",
+        ),
         ("final", "verify holding short of runway one five", "negative, 5 miles south"),
         ("en_route", "verify level at six thousand", "eight thousand"),
         ("final", "did you have breakfast", "say again"),

@@ -14,11 +14,11 @@ from PIL import Image
 from airhilt.audio.wav import read_wav
 from airhilt.errors import AirhiltError, StationError
 from airhilt.record import Run, open_run
+from airhilt.record.kept_pictures import kept_pictures
 from airhilt.record.pictures import PictureName
 from airhilt.report.frequency import read_frequency
 from airhilt.station.app import debrief_app
 from airhilt.station.debrief import Debrief
-from airhilt.station.pictures import kept_pictures
 from camera_run import camera_run
 from stations import asked
 

@@ -28,7 +28,7 @@ from microphone import (
     talk,
 )
 from seats import voice
-from stations import PATIENCE_S, PretendedRun, opened, sit
+from stations import PATIENCE_S, TOWER, PretendedRun, opened, seat_page, sit
 
 SAY_PLACE = "document.getElementById('say-button').getBoundingClientRect().y"
 ADVISORY = {
@@ -186,6 +186,16 @@ def test_what_is_no_sound_is_refused_in_words(seat: tuple[PretendedRun, str], so
             while socket.recv(timeout=60.0):
                 pass
         assert "expected" in (socket.close_reason or "") or "at most" in (socket.close_reason or "")
+
+
+@pytest.mark.browser
+def test_who_is_heard_by_the_embedded_recogniser_is_told_that_it_hears_few_people_right(
+    page: Page,
+) -> None:
+    run = PretendedRun([TOWER.model_copy(update={"recogniser": "embedded"})])
+    with seat_page(run) as (_, url):
+        sit_down(page, url)
+        page.wait_for(f"{TALK_STATE}.includes('hears few people right')")
 
 
 @pytest.mark.browser

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
+from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.snapshot import TICK_S
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite

@@ -41,8 +41,10 @@ def message(key: str, t_s: float, **content: Any) -> UnregisteredMessage:
 
 def state_of(seat: str, **more: Any) -> SeatState:
     """Return the state of a seat before anybody has come."""
-    given = {"frequencies_khz": (119_100,), "tuned_khz": (119_100,)} | more
-    return SeatState(seat=seat, is_recognised=True, voice_is_recorded=True, **given)
+    given = {
+        "frequencies_khz": (119_100,), "tuned_khz": (119_100,), "recogniser": "other",
+    } | more  # fmt: skip
+    return SeatState(seat=seat, voice_is_recorded=True, **given)
 
 
 def tower(duration_s: float = 40.0) -> Scenario:

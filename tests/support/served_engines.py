@@ -1,7 +1,9 @@
-"""Engines of AIRHILT behind addresses, in a thread of the tests."""
+"""Engines of AIRHILT behind addresses, in a thread of the tests or a process of their own."""
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,9 +16,10 @@ from airhilt.assistant.serving import service_app
 
 
 @contextmanager
-def served(kind: ServiceKind, engine: str) -> Iterator[str]:
-    """Yield the address of an engine."""
-    config = uvicorn.Config(service_app(kind, engine), port=0, log_level="warning", lifespan="off")
+def served(kind: ServiceKind, engine: str, port: int | None = 0) -> Iterator[str]:
+    """Yield the address of an engine in this process."""
+    app = service_app(kind, engine)
+    config = uvicorn.Config(app, port=port or 0, log_level="warning", lifespan="off")
     server = uvicorn.Server(config)
     thread = threading.Thread(target=server.run)
     thread.start()
@@ -28,3 +31,15 @@ def served(kind: ServiceKind, engine: str) -> Iterator[str]:
     finally:
         server.should_exit = True
         thread.join()
+
+
+@contextmanager
+def serving(kind: ServiceKind, *options: str) -> Iterator[str]:
+    """Yield the address that ``airhilt serve`` prints."""
+    command = [sys.executable, "-m", "airhilt", "serve", kind, *options]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            yield process.stdout.readline().split()[0]
+        finally:
+            process.terminate()

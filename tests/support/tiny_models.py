@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
+
+import numpy as np
+
+from paths import DATA
 
 XTTS_SPEAKERS = ("Ana Florence", "Craig Gutsy", "Viktor Eka")
 _WIDTH, _TIMBRE = 32, 16
+_WEIGHT_HEADER_BYTES = 14
+"""CTranslate2 has rank, two dimensions, type and size between a weight's name and its numbers."""
 YOLO_NAMES = {4: "airplane", 2: "car", 5: "bus", 7: "truck", 14: "bird", 16: "dog", 17: "horse"}
 """Some of COCO's."""
 
@@ -88,3 +95,17 @@ def write_yolo(folder: Path) -> None:
     YOLO(folder / "yolov10n.pt").export(format="onnx", dynamic=True, simplify=False)
     model.model.names = {index: f"class{index}" for index in range(80)}
     model.save(folder / "others.pt")
+
+
+def write_looping_whisper(folder: Path) -> None:
+    """Write the tiny Whisper of the tests with shuffled weights, which says one word for ever."""
+    shutil.copytree(DATA / "tiny_whisper", folder, dirs_exist_ok=True)
+    path = folder / "model.bin"
+    data = bytearray(path.read_bytes())
+    drawn = np.random.default_rng(0)
+    for layer in ("linear_0", "linear_1"):
+        name = f"decoder/layer_0/ffn/{layer}/weight\0".encode()
+        at = data.index(name) + len(name) + _WEIGHT_HEADER_BYTES
+        weights = data[at : at + _WIDTH * _WIDTH]
+        data[at : at + _WIDTH * _WIDTH] = drawn.permutation(np.frombuffer(weights, "u1")).tobytes()
+    path.write_bytes(data)

@@ -307,6 +307,9 @@ class Seen:
 
     # --- in the air -------------------------------------------------------------------------
 
+    def lands(self) -> bool:
+        return bool(not self.states[0]["on_ground"] and self.states[-1]["on_ground"])
+
     def lands_on(self, runway: str) -> bool:
         return any(
             state["on_ground"] and self.on_runway(runway, state) and
@@ -333,6 +336,16 @@ class Seen:
     def track(self, magnetic_deg: float) -> bool:
         wanted = magnetic_deg - 10.7
         return any(abs(turned_deg(track_deg(state), wanted)) < 8.0 for state in self.states[-100:])
+
+    def comes_nearer_to_ft(self, ft: float) -> bool:
+        """Return whether it is nearer to an altitude at the end than at the beginning."""
+        first, last = (abs(self.states[at]["altitude_m"] / FOOT - ft) for at in (0, -1))
+        return bool(last < first - 100.0)
+
+    def has_flown_track(self, magnetic_deg: float) -> bool:
+        """Return whether it flies a magnetic track at any time."""
+        wanted = magnetic_deg - 10.7
+        return any(abs(turned_deg(track_deg(state), wanted)) < 8.0 for state in self.states)
 
     def turns(self) -> bool:
         """Return whether it flies another way at the end."""

@@ -165,7 +165,7 @@ def test_the_examples_pass(example: str, worker: str) -> None:
         ),
         (
             Ears(lambda _: Step((Output("asr/118300", b"{}"),))),
-            "published on 'asr/118300' something that is no Transcript: id: Field required",
+            "published on 'asr/118300' something that is no Transcript: id, frequency_khz, ",
         ),
         (
             Ears(lambda _: Step((output(more=b" " * 32_000),))),

@@ -51,7 +51,8 @@ def airframes_of(scenario: Scenario) -> list[Airframe]:
     """Return the flight dynamics of a scenario's aircraft, without anything around them."""
     realised, _ = realise(scenario, 0)
     actors = build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
-    return [actor.body._airframe for actor in actors.values() if isinstance(actor.body, Aircraft)]
+    bodies = (actor.body for actor in actors.values())
+    return [each.en_route.systems.airframe for each in bodies if isinstance(each, Aircraft)]
 
 
 def step_s_of(airframes: list[Airframe]) -> float:

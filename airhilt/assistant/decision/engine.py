@@ -7,12 +7,42 @@ It knows no keys and no bus, and nothing of queues: that is its worker's part (s
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 from pydantic import BaseModel
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.messages import Message, ModelExchange
+from airhilt.errors import WorkerError
+from airhilt.messages import (
+    AdsbReport,
+    Briefing,
+    CockpitInstruments,
+    Detections,
+    Message,
+    ModelExchange,
+    RadarInfo,
+    RadarPlot,
+    Status,
+    SurfaceTrack,
+    TcasReply,
+    Transcript,
+    Transmission,
+)
+
+KEYS: Mapping[type[Message], str] = {
+    Briefing: "briefing",
+    AdsbReport: "adsb/*",
+    Transcript: "asr/*",
+    Detections: "vision/*",
+    RadarInfo: "radar/*/info",
+    RadarPlot: "radar/*",
+    SurfaceTrack: "surface/*",
+    CockpitInstruments: "cockpit/*",
+    TcasReply: "tcas/*",
+    Transmission: "radio/*/tx",
+    Status: "status/*",
+}
+"""The key of each message that an engine may read by its class alone."""
 
 
 class ReceivedMessage(NamedTuple):
@@ -25,6 +55,8 @@ class ReceivedMessage(NamedTuple):
     """Time now: later than that if the worker was busy."""
     payload: bytes = b""
     """The raw bytes that the message is the header of; empty for other messages."""
+    key: str = ""
+    """Key below that of the run."""
 
 
 class Decision(NamedTuple):
@@ -78,3 +110,21 @@ class NamesInputs(Protocol):
     def inputs(self) -> Mapping[str, object]:
         """Message, or union of messages, of each key, such as ``loop/*``."""
         ...
+
+
+def inputs_of(engine: DecisionEngine) -> dict[str, Any]:
+    """Return the message, or union of messages, of each key that an engine reads.
+
+    Raises
+    ------
+    WorkerError
+        The engine wants messages without saying on which key they are.
+    """
+    unknown = [model.__name__ for model in engine.reads if model not in KEYS]
+    if unknown:
+        raise WorkerError(
+            f"assistant {engine.name!r} reads {', '.join(unknown)}; expected some of "
+            f"{', '.join(model.__name__ for model in KEYS)}, and others in `inputs` by key"
+        )
+    read: dict[str, Any] = {key: model for model, key in KEYS.items() if model in engine.reads}
+    return read | dict(engine.inputs) if isinstance(engine, NamesInputs) else read

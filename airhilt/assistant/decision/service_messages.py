@@ -5,10 +5,11 @@ Times are whole milliseconds since the start of the run (``ts_ms``), as in the A
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
-from pydantic import Field, StringConstraints, model_validator
+from pydantic import Base64Bytes, Field, StringConstraints, model_validator
 
+from airhilt.assistant.decision.alerts import Alert
 from airhilt.messages import (
     AdvisoryKind,
     AirportBriefing,
@@ -17,6 +18,8 @@ from airhilt.messages import (
     Detection,
     EmitterCategory,
     Evidence,
+    ModelExchange,
+    Nanoseconds,
     Part,
     Recommendation,
     RosterEntry,
@@ -99,6 +102,35 @@ class FlightContext(Part):
     animals: tuple[str, ...]
 
 
+class DeliveredMessage(Part):
+    """One message of the run, as it reached the assistant."""
+
+    key: str = Field(description="key below that of the run", examples=["adsb/a1b2c3"])
+    t_in_ns: Nanoseconds = Field(description="arrival at the assistant")
+    t_ns: Nanoseconds = Field(description="when it was taken: later if the assistant was busy")
+    message: dict[str, Any] = Field(description="the message of that key, see `airhilt schema`")
+    payload: Base64Bytes = Field(
+        default=b"", description="raw bytes that the message is the header of; otherwise empty"
+    )
+
+
+class Delivery(Part):
+    """The messages since the last answer, at the instant at which an engine decides."""
+
+    t_ns: Nanoseconds
+    messages: tuple[DeliveredMessage, ...]
+
+
+class EngineDecision(Part):
+    """Decision of an engine after a delivery."""
+
+    alerts: tuple[Alert, ...] = Field(description="what is new, has changed, or is over")
+    again_ns: Nanoseconds | None = Field(
+        description="when to ask again even if nothing more arrives; null: not before"
+    )
+    exchanges: tuple[ModelExchange, ...] = ()
+
+
 class AssistantRequest(Part):
     """Evidence that the assistant may know at ``ts_ms``: the last minutes of each modality."""
 
@@ -107,6 +139,10 @@ class AssistantRequest(Part):
     radio: tuple[RadioTurn, ...] = Field(description="the calls of the last two minutes")
     cameras: tuple[CameraSlice, ...] = Field(description="the pictures of the last second")
     tracks: tuple[TrackSlice, ...] = Field(description="those heard in the last 15 s")
+    delivery: Delivery | None = Field(
+        default=None,
+        description="messages instead of the above, for a service whose first answer has `inputs`",
+    )
 
 
 class ProposedAdvisory(Part):
@@ -144,6 +180,13 @@ class AssistantAnswer(Part):
     """All conflicts that hold now. One that is not listed any more is over."""
 
     advisories: tuple[ProposedAdvisory, ...] = Field(max_length=MOST_ADVISORIES)
+    inputs: tuple[str, ...] = Field(
+        default=(),
+        description="keys of the messages that the service wants as they arrive, each time that "
+        "some do; empty: it is asked with slices",
+        examples=[["briefing", "adsb/*"]],
+    )
+    decision: EngineDecision | None = Field(default=None, description="answer to a delivery")
 
     @model_validator(mode="after")
     def _names_each_once(self) -> Self:

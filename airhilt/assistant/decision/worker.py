@@ -10,32 +10,23 @@ from pydantic import TypeAdapter
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import (
+    KEYS,
     DecisionEngine,
     HasConfiguration,
-    NamesInputs,
     ReceivedMessage,
+    inputs_of,
 )
 from airhilt.assistant.decision.fusion import FusionGate
 from airhilt.assistant.wording.engine import AdvisoryWording, words
-from airhilt.errors import WorkerError
 from airhilt.messages import (
     ADVISORY_CALL,
     CONTROLLER,
-    AdsbReport,
     Advisory,
-    Briefing,
-    CockpitInstruments,
     DeclaredLatency,
-    Detections,
     InputSpec,
-    Message,
     ModelExchange,
-    RadarInfo,
-    RadarPlot,
     Recommendation,
     Status,
-    SurfaceTrack,
-    TcasReply,
     Told,
     Transcript,
     Transmission,
@@ -46,24 +37,14 @@ from airhilt.sim.worker import Input, Output
 from airhilt.workers.pool import require_open_key
 from airhilt.workers.protocol import Step
 
-KEYS: dict[type[Message], str] = {
-    Briefing: "briefing",
-    AdsbReport: "adsb/*",
-    Transcript: "asr/*",
-    Detections: "vision/*",
-    RadarInfo: "radar/*/info",
-    RadarPlot: "radar/*",
-    SurfaceTrack: "surface/*",
-    CockpitInstruments: "cockpit/*",
-    TcasReply: "tcas/*",
-    Transmission: "radio/*/tx",
-    Status: "status/*",
-}
-"""The key of each message that an engine may read by its class alone."""
-
 
 class DecisionWorker:
     """Gives what arrives to a decision engine, and publishes its alerts as advisories.
+
+    Attributes
+    ----------
+    engine
+        The decision engine.
 
     Parameters
     ----------
@@ -87,24 +68,16 @@ class DecisionWorker:
         is_gated: bool = False,
         name: str = "decision",
     ) -> None:
-        unknown = [model.__name__ for model in engine.reads if model not in KEYS]
-        if unknown:
-            raise WorkerError(
-                f"assistant {engine.name!r} reads {', '.join(unknown)}; expected some of "
-                f"{', '.join(model.__name__ for model in KEYS)}, and others in `inputs` by key"
-            )
         self._name = name
-        self._engine = engine
+        self.engine = engine
         self._wording = wording
         self._told = told
         self._gate = FusionGate() if is_gated else None
-        read: dict[str, Any] = {key: model for model, key in KEYS.items() if model in engine.reads}
-        if isinstance(engine, NamesInputs):
-            read |= engine.inputs
+        read = inputs_of(engine)
         self._read = frozenset(read)
         gates = (Transcript, Transmission, Status) if is_gated else ()
         gating = {KEYS[model]: model for model in gates}
-        self._models: dict[str, TypeAdapter[Message]] = {
+        self._models: dict[str, TypeAdapter[Any]] = {
             key: TypeAdapter(model) for key, model in (read | gating).items()
         }
         self._patterns: dict[str, str] = {}
@@ -131,7 +104,7 @@ class DecisionWorker:
             if opens_ns is not None:
                 return Step((), wake_ns=opens_ns)
         t_ready_ns = max((item.t_in_ns for item in inputs), default=t_ns)
-        decision = self._engine.decide(t_ns)
+        decision = self.engine.decide(t_ns)
         alerts = [self._addressed(alert) for alert in decision.alerts]
         worded = words(self._wording, alerts)
         advisories = (
@@ -155,13 +128,14 @@ class DecisionWorker:
         message = (
             model.validate_json(item.payload) if header is None else model.validate_python(header)
         )
-        if str(getattr(message, "id", "")).startswith(ADVISORY_CALL):
+        name = message.get("id") if isinstance(message, dict) else getattr(message, "id", "")
+        if str(name).startswith(ADVISORY_CALL):
             return  # It knows what it has said itself.
         if self._gate is not None:
             self._gate.receive(message)
         if pattern in self._read:
             raw = b"" if header is None else item.payload
-            self._engine.receive(ReceivedMessage(message, item.t_in_ns, t_ns, raw))
+            self.engine.receive(ReceivedMessage(message, item.t_in_ns, t_ns, raw, item.key))
 
     def _answers(self, exchanges: Sequence[ModelExchange]) -> Iterator[Output]:
         for exchange in exchanges:

@@ -16,6 +16,11 @@ from airhilt.messages import Box
 
 LEAST_CHANGE = 2
 """Least change of a pixel, in levels of 255."""
+LEAST_BEYOND_MOTION = 8
+"""Likewise beyond what the motion of a camera explains: less than the 5 % of full scale below which
+a body does not count (docs/detector.md)."""
+LEAST_PIXELS = 3
+"""Least number of such pixels in a block: edges that are finer than a pixel come and go."""
 MARGIN_PX = 48
 """Margin between a change and the edges of its window, in pixels, unless the picture ends there."""
 MARGIN_BLOCKS = MARGIN_PX // GRID_PX - 1
@@ -38,6 +43,63 @@ def changed_blocks(before: Picture, after: Picture) -> Blocks:
             change = np.maximum(one, other) - np.minimum(one, other)
             most = change.reshape(len(change), -1).max(axis=0)
             strip[:] = np.maximum.reduceat(most, starts) >= LEAST_CHANGE
+    return blocks
+
+
+def blocks_beyond_motion(before: Picture, after: Picture, motion_px: tuple[int, int]) -> Blocks:
+    """Return the blocks with pixels whose colours were not within a pixel of their places before.
+
+    What comes into the picture at its edges does not count.
+
+    Parameters
+    ----------
+    motion_px
+        Way right and down from places in the picture after to the same places before.
+    """
+    rows, columns, _ = after.shape
+    right, down = motion_px
+    blocks = np.zeros((-(-rows // GRID_PX), -(-columns // GRID_PX)), dtype=bool)
+    if abs(right) >= columns or abs(down) >= rows:
+        return ~blocks
+    old = before[max(down, 0) : rows + min(down, 0), max(right, 0) : columns + min(right, 0)]
+    place = (
+        slice(max(-down, 0), rows - max(down, 0)),
+        slice(max(-right, 0), columns - max(right, 0)),
+    )
+    new = after[place]
+    differ = np.flatnonzero((old != new).reshape(len(new), -1).any(axis=1))
+    if not len(differ):
+        return blocks
+    part = slice(max(int(differ[0]) - 1, 0), int(differ[-1]) + 2)
+    old, new = old[part], new[part]
+    low, high = _about_each(np.minimum, old), _about_each(np.maximum, old)
+    change = np.maximum(np.maximum(low, new) - new, np.maximum(high, new) - high)
+    beyond = np.zeros((rows, columns), dtype=bool)
+    beyond[place][part] = (change >= LEAST_BEYOND_MOTION).any(axis=2)
+    starts = np.arange(0, columns, GRID_PX)
+    for index, strip in enumerate(blocks):
+        count = beyond[index * GRID_PX : (index + 1) * GRID_PX].sum(axis=0)
+        strip[:] = np.add.reduceat(count, starts) >= LEAST_PIXELS
+    return blocks
+
+
+def _about_each(pick: np.ufunc, picture: Picture) -> Picture:
+    """Return the extreme of each pixel and its eight neighbours."""
+    column = picture.copy()
+    pick(column[1:], picture[:-1], out=column[1:])
+    pick(column[:-1], picture[1:], out=column[:-1])
+    square = column.copy()
+    pick(square[:, 1:], column[:, :-1], out=square[:, 1:])
+    pick(square[:, :-1], column[:, 1:], out=square[:, :-1])
+    return square
+
+
+def blocks_of(boxes: Sequence[Box], rows: int, columns: int) -> Blocks:
+    """Return the blocks that boxes touch; they lie within the picture."""
+    blocks = np.zeros((-(-rows // GRID_PX), -(-columns // GRID_PX)), dtype=bool)
+    for box in boxes:
+        left, top, right, bottom = (round(side) // GRID_PX for side in _about([box]))
+        blocks[top:bottom, left:right] = True
     return blocks
 
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from airhilt.errors import VisionError
 from airhilt.imaging.boxes import overlap
 from airhilt.imaging.masks import Mask
-from airhilt.messages import Box, VisibleClass
+from airhilt.messages import Box, CameraView, VisibleClass
 
 Picture = npt.NDArray[np.uint8]
 """A picture in 8-bit sRGB, shape (rows, columns, 3)."""
@@ -42,6 +42,8 @@ class Shot(NamedTuple):
     top: int = 0
     own_aircraft: Mask | None = None
     """Mask of the pixels that the camera's own aircraft may cover; None if there are none."""
+    view: CameraView | None = None
+    """Pose and lens of the camera; None if they are not known."""
 
 
 class PictureMissed(VisionError):

@@ -23,6 +23,11 @@ class PictureRequest(BaseModel):
         default=None,
         description="PNG in base64, white where the camera's own aircraft may be; null: nowhere",
     )
+    window_px: tuple[int, int, int, int] | None = Field(
+        default=None,
+        description="left, top, right and bottom of the only part to look at, in this picture; "
+        "null: all of it; only for a service whose answers say `looks_at_windows`",
+    )
 
 
 class FoundObject(BaseModel):
@@ -39,3 +44,13 @@ class DetectionAnswer(BaseModel):
 
     model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
     detections: tuple[FoundObject, ...] = Field(max_length=MOST_FOUND)
+    threshold: Confidence = Field(
+        default=0.0,
+        description="confidence from which a detection counts by itself; others only continue "
+        "tracks",
+    )
+    looks_at_windows: bool = Field(
+        default=False,
+        description="true if the service takes `window_px`, and finds there what it finds in the "
+        "whole picture: a run then asks about what has changed",
+    )

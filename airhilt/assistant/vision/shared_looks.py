@@ -41,13 +41,28 @@ class SharedLooks:
         self._folder = CacheFolder("detections")
         self._identity = [_code(), *detector.identity, np.__version__, processor_sha256()]
 
-    def get(self, history: str, tile: Tile, shape: Sequence[int], look: Callable[[], Look]) -> Look:
-        """Return a look, which is taken if nobody has after pictures with the same hash."""
-        key = json.dumps([*self._identity, history, tile, shape])
-        windows, found = json.loads(self._folder.get(key, lambda: json.dumps(look()).encode()))
+    def get(
+        self,
+        history: str,
+        tile: Tile,
+        shape: Sequence[int],
+        plan: Sequence[object] | None,
+        look: Callable[[], Look],
+    ) -> Look:
+        """Return a look, which is taken if nobody has after pictures with the same hash.
+
+        Parameters
+        ----------
+        plan
+            All else that it depends on, as JSON.
+        """
+        key = json.dumps([*self._identity, history, tile, shape, plan])
+        kept = self._folder.get(key, lambda: json.dumps(look()).encode())
+        windows, found, is_partial = json.loads(kept)
         return Look(
             tuple(Tile(*window) for window in windows),
             tuple(Found(label, confidence, tuple(box)) for label, confidence, box in found),
+            is_partial,
         )
 
 

@@ -19,7 +19,7 @@ from scipy.optimize import linear_sum_assignment
 
 from airhilt.assistant.vision.detector import Found
 from airhilt.imaging.pinhole import Pinhole
-from airhilt.messages import CONFIRMED_HITS, CameraView, Detection, VisibleClass
+from airhilt.messages import CONFIRMED_HITS, Box, CameraView, Detection, VisibleClass
 from airhilt.units import SECOND_NS
 
 Array = npt.NDArray[np.float64]
@@ -146,6 +146,16 @@ class Tracker:
         self._tracks: list[_Track] = []
         self._count = 0
         self._last: tuple[int, CameraView] | None = None
+
+    def expected(self, t_ns: int, view: CameraView) -> list[Box]:
+        """Return the boxes of all tracks as they should be in the next picture."""
+        self._expect(t_ns, view)
+        boxes = []
+        for track in self._tracks:
+            column, row, width, height = track.state[:, 0].tolist()
+            half = width / 2.0, height / 2.0
+            boxes.append((column - half[0], row - half[1], column + half[0], row + half[1]))
+        return boxes
 
     def follow(self, t_ns: int, view: CameraView, found: Sequence[Found]) -> list[Detection]:
         """Return the findings in the next picture with their tracks, by falling confidence.

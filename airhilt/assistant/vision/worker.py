@@ -44,8 +44,6 @@ class VisionWorker:
         self._threshold = detector.threshold
         self._masks: dict[str, Mask | None] = {}
         self._trackers: dict[str, Tracker] = {}
-        self._last: dict[str, tuple[str, Sequence[Found]]] = {}
-        """SHA-256 of the last picture of each camera that was looked at, and what is in it."""
         self.description = WorkerDescription(
             name=name,
             modality="vision",
@@ -90,33 +88,32 @@ class VisionWorker:
         if header.encoding == "none":
             return seen.model_copy(update={"missed": EXPOSURE_LEFT_OUT})
         mask = self._masks.get(header.camera)
+        tracker = self._trackers.setdefault(header.camera, Tracker(self._threshold))
         try:
-            found = self._found(header, item, mask)
+            found = self._found(
+                header, item, mask, tracker.expected(header.t_frame_ns, header.view)
+            )
         except VisionError as missed:
             if not missed.is_passing:
                 raise
             return seen.model_copy(update={"missed": str(missed)})
         if mask is not None:
             found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
-        tracker = self._trackers.setdefault(header.camera, Tracker(self._threshold))
         detections = tracker.follow(header.t_frame_ns, header.view, found)
         return seen.model_copy(update={"detections": tuple(detections)})
 
-    def _found(self, header: CameraFrame, item: Input, mask: Mask | None) -> Sequence[Found]:
-        """Return what is in a picture; the same pixels again have the same in them."""
-        sha256, found = self._last.get(header.camera, (None, ()))
-        if sha256 != header.sha256:
-            shape = header.view.height_px, header.view.width_px, 3
-            picture = SeenPicture(
-                shape,
-                header.sha256,
-                lambda: np.frombuffer(item.payload, np.uint8).reshape(shape),
-                is_made=not isinstance(item, DeferredInput),
-            )
-            shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
-            found = self._gate.look_at(shot, picture)
-            self._last[header.camera] = header.sha256, found
-        return found
+    def _found(
+        self, header: CameraFrame, item: Input, mask: Mask | None, expected: Sequence[Box]
+    ) -> Sequence[Found]:
+        shape = header.view.height_px, header.view.width_px, 3
+        picture = SeenPicture(
+            shape,
+            header.sha256,
+            lambda: np.frombuffer(item.payload, np.uint8).reshape(shape),
+            is_made=not isinstance(item, DeferredInput),
+        )
+        shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask, view=header.view)
+        return self._gate.look_at(shot, picture, expected)
 
 
 def covered_share(box: Box, mask: Mask) -> float:

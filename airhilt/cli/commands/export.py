@@ -17,7 +17,7 @@ from airhilt.export import export as export_run
 Examples:
   airhilt export runs/s02a_headon-0-20260101T120000 --to parquet
   airhilt export RUN --to csv --out tables
-  airhilt export RUN --to wav
+  airhilt export RUN --to rerun
 """
 )
 @run_argument
@@ -31,7 +31,7 @@ Examples:
     help="A folder that is new or empty.  [default: export/FORMAT in the run folder]",
 )
 def export(run_folder: Path, name: str, out: Path | None) -> None:
-    """Write a run in a format of other programs: tables or sound."""
+    """Write a run in a format of other programs: tables, sound or displays."""
     from airhilt.metrics.result import open_result
 
     run = open_result(run_folder, tell)

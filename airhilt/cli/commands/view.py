@@ -43,6 +43,9 @@ Examples:
     help="Folder with observer.json of `airhilt keys init`, for a run that goes on.",
 )
 @click.option(
+    "--run", "run_name", metavar="NAME", help="Name of the run, where several share an endpoint."
+)
+@click.option(
     "--seat",
     "seats",
     multiple=True,
@@ -56,6 +59,7 @@ def view(
     other: Path | None,
     connect: str | None,
     tls: Path | None,
+    run_name: str | None,
     seats: tuple[str, ...],
     page: PageOptions,
 ) -> None:
@@ -68,13 +72,14 @@ def view(
     is_live = connect is not None or tls is not None
     if (run_folder is None) != is_live:
         raise click.UsageError("expected a run folder, or --connect ENDPOINT")
-    if seats and not is_live:
-        raise click.UsageError("--seat would do nothing for a run folder")
+    for option, value in (("--seat", seats), ("--run", run_name)):
+        if value and not is_live:
+            raise click.UsageError(f"{option} would do nothing for a run folder")
     address, browser = page.address(), not page.no_browser
     if run_folder is not None:
         _show_recorded([run_folder, *([] if other is None else [other])], address, browser)
     else:
-        _show_live(connect, tls, seats, address, browser)
+        _show_live(connect, tls, run_name, seats, address, browser)
 
 
 def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool) -> None:
@@ -92,7 +97,12 @@ def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool)
 
 
 def _show_live(
-    connect: str | None, tls: Path | None, asked: tuple[str, ...], address: Address, browser: bool
+    connect: str | None,
+    tls: Path | None,
+    run_name: str | None,
+    asked: tuple[str, ...],
+    address: Address,
+    browser: bool,
 ) -> None:
     from airhilt.station.app import live_app
     from airhilt.station.browsers import Browsers
@@ -105,7 +115,9 @@ def _show_live(
 
     click.echo(f"{WAITING} {connect or tls}")
     with ExitStack() as stack:
-        connection = RunConnection(connect, "operator" if asked else "observer", tls=tls)
+        connection = RunConnection(
+            connect, "operator" if asked else "observer", tls=tls, run=run_name
+        )
         stack.callback(connection.close)
         seats = connection.seats(asked, tell)
         changes, sounds = Changes(), Changes(MOST_SOUNDS)

@@ -10,6 +10,7 @@ from airhilt.scenario.models.actors import (
     HoldingShort,
     LinedUp,
     OnFinal,
+    OnTrack,
     PlannedAction,
     Reactions,
     Standing,

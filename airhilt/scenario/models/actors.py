@@ -7,9 +7,16 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from airhilt.commands import AircraftCommand, Command
-from airhilt.geodesy.positions import Bearing, Position, RunwayIdent, TaxiwayName
+from airhilt.geodesy.positions import (
+    Bearing,
+    Latitude,
+    Longitude,
+    Position,
+    RunwayIdent,
+    TaxiwayName,
+)
 from airhilt.messages import EmergencyState, TransponderMode
-from airhilt.quantities import AltitudeFt, Count, FileName, Flag, Name, Number, Share
+from airhilt.quantities import AltitudeFt, Count, FileName, Flag, Name, Number, Share, TimeS
 from airhilt.scenario.models.base import MOST_COMMANDS, Callsign, Model
 from airhilt.scenario.models.conditions import Condition
 
@@ -58,8 +65,32 @@ class Standing(Model):
     heading_deg: Bearing = Field(default=0.0, description="true")
 
 
+MOST_POINTS = 20_000
+"""Greatest number of points of a track."""
+Point = Annotated[
+    tuple[TimeS, Latitude, Longitude, AltitudeFt | None],
+    Field(
+        description="seconds since the start of the run, latitude and longitude in degrees, and "
+        "altitude in ft in the standard atmosphere; null: on the ground"
+    ),
+]
+
+
+class OnTrack(Model):
+    """Follow a recorded track until a command, or an advisory that the crew follows.
+
+    The aircraft is in the world from the first point to the last; one that ends on the ground
+    stays there.
+    """
+
+    type: Literal["track"]
+    points: tuple[Point, ...] = Field(
+        min_length=2, max_length=MOST_POINTS, description="in order of time"
+    )
+
+
 AircraftStart = Annotated[
-    Airborne | OnFinal | LinedUp | HoldingShort | Standing, Field(discriminator="type")
+    Airborne | OnFinal | LinedUp | HoldingShort | Standing | OnTrack, Field(discriminator="type")
 ]
 GroundStart = Annotated[LinedUp | HoldingShort | Standing, Field(discriminator="type")]
 

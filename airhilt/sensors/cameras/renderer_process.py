@@ -216,11 +216,13 @@ def start_renderer(renderer: str = AUTO) -> ChildProcess:
 def processes_for(scenario: Scenario) -> int:
     """Return how many processes draw for the cameras of a scenario, at least 1.
 
-    Half of the cores draw: the run and its detector have the others. A fixed camera's background
-    is drawn once; only those that move are worth a process.
+    A run waits while its pictures are drawn, so all cores may draw; but a process takes a second to
+    open its scene, and is worth it for two cameras that move. With half of the cores, which leaves
+    the others to the detector, it is worth it for one. A fixed camera's background is drawn once.
     """
     moving = sum(camera.carrier is not None for camera in scenario.cameras)
-    return max(min(available_cores() // 2, moving, MOST_PROCESSES), 1)
+    cores = available_cores()
+    return max(min(max(cores // 2, moving // 2), cores, moving, MOST_PROCESSES), 1)
 
 
 def shared_out(cameras: Iterable[Camera], processes: int) -> list[list[str]]:

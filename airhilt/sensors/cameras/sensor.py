@@ -23,9 +23,9 @@ from airhilt.messages import (
     SightingTruth,
 )
 from airhilt.scenario.models import Camera
+from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.frame import CameraPicture, PictureSource
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sim import Director, Priority
 from airhilt.sim.payload import Payload
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns

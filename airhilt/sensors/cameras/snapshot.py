@@ -11,13 +11,14 @@ from airhilt.errors import CameraError
 from airhilt.host.files import replace_file
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.frame import CameraPicture
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
-from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors import build_actors
 from airhilt.world.loading import draw
+from airhilt.world.mover import goes_on
 from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05
@@ -50,7 +51,7 @@ def snapshot(
         actors = build_actors(realised, site, seed, TICK_S)
         for _ in range(ticks):
             for actor in actors.values():
-                if actor.body.ended is None:
+                if goes_on(actor.body):
                     actor.body.advance()
         local_frame = local_frame_of(site)
         bodies = states_of(actors.values(), local_frame, site.ground_m, now_ns, ticks * tick_ns)

@@ -6,8 +6,8 @@ controller gives because of an advisory, is drawn from the response model.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -19,6 +19,7 @@ from airhilt.commands import (
     HoldPositionCommand,
     HoldShortCommand,
     ReportCommand,
+    TakeOffCommand,
 )
 from airhilt.messages import Event
 from airhilt.phraseology import Call, Instruction
@@ -28,7 +29,8 @@ from airhilt.scenario.models import Condition, ScriptedCommand
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import HeardCall, RadioCall, Speakers
 from airhilt.sensors.radio.stations import SAY_FREQUENCY
-from airhilt.world.actors.orders import ON_THE_WAY, Order, Subject, orders_of, subject_of
+from airhilt.world.actors.air_phases import VERTICAL
+from airhilt.world.actors.orders import TO_A_RUNWAY, Order, Subject, orders_of, subject_of
 from airhilt.world.actors.reactions import reaction_models
 
 COMPLY_AFTER_S = 2.0
@@ -55,6 +57,21 @@ class Decision(NamedTuple):
     """Instructions that it reads back, and words that answer questions."""
     unable: tuple[str, ...] = ()
     """Words about the rest: why it cannot do it, or what it asks before it can."""
+
+
+@dataclass
+class _Answer:
+    """Answer of an actor to the orders of a call, as far as it has gone through them."""
+
+    commands: dict[Command, Condition | None] = field(default_factory=dict)
+    accepted: list[Order] = field(default_factory=list)
+    unable: list[str] = field(default_factory=list)
+    undone: dict[Command, str] = field(default_factory=dict)
+    """Why commands are not done."""
+    stops: bool = False
+    """True if it stops at once, and so does not move for the same call."""
+    refused: dict[Subject, str | None] = field(default_factory=dict)
+    """Why the last order now about each subject cannot be done; None if it can."""
 
 
 class Compliance:
@@ -106,77 +123,102 @@ class Compliance:
         return Decision(planned, (*taken.instructions, *self._answered(taken, actor)))
 
     def _ordered(self, call: RadioCall, taken: Call, actor: str) -> Decision:
+        """Return the decision about what the words of a call order.
+
+        It is made in the order in which the actor does things, and read back in that of the call.
+        """
         listener = self._stations.listener(call.frequency_khz)
         orders = listener.orders_of(taken.instructions, self._stations.bound_runway(actor), actor)
-        commands: dict[Command, Condition | None] = {}
-        accepted: list[Order] = []
-        unable = []
-        refused: dict[Subject, str | None] = {}
-        """Why the last order now about each subject cannot be done; None if it can."""
-        for order in self._possible(actor, orders):
-            why = order.unable or order.question or self._contradicts(actor, order.instruction)
-            if why is None and order.command is not None:
-                why = self._why_refused(actor, order, commands, refused)
-                if order.when is None:
-                    refused[subject_of(order.command)] = why
-            if why is not None:
-                unable.append(why)
-                continue
-            accepted.append(order)
-            if order.command is not None and not self._keeps(actor, order.instruction):
-                commands[order.command] = order.when
+        orders = tuple(self._possible(actor, orders))
+        stops = [each for each in orders if isinstance(each.command, HoldPositionCommand)]
+        answer = _Answer(stops=any(self._stops(actor, each) for each in stops))
+        for order in sorted(orders, key=lambda each: (each.rank, each.part_of is not None)):
+            if order.part_of is None:
+                self._answer_order(actor, order, answer)
+            elif any(order.part_of is each.instruction for each in answer.accepted):
+                answer.accepted.append(order)
+            elif order.alone is not None:
+                self._answer_order(actor, replace(order, command=order.alone), answer)
         scripted = tuple(
             ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S, when=when)
-            for command, when in commands.items()
+            for command, when in answer.commands.items()
         )
-        if refused.get("surface") or refused.get("approach"):
-            accepted = [
-                each
-                for each in accepted
-                if each.command in commands or each.instruction.action not in ON_THE_WAY
-            ]
-        read_back: list[Instruction | str] = [each.instruction for each in accepted]
+        accepted = {id(each.instruction) for each in answer.accepted}
+        read_back: list[Instruction | str] = [
+            each.instruction for each in orders if id(each.instruction) in accepted
+        ]
         read_back += self._answered(taken, actor)
-        decision = Decision(scripted, tuple(read_back), tuple(dict.fromkeys(unable)))
+        decision = Decision(scripted, tuple(read_back), tuple(dict.fromkeys(answer.unable)))
         return self._told(actor, decision)
 
-    def _why_refused(
-        self,
-        actor: str,
-        order: Order,
-        commands: Iterable[Command],
-        refused: Mapping[Subject, str | None],
-    ) -> str | None:
+    def _answer_order(self, actor: str, order: Order, answer: _Answer) -> None:
+        """Add what an actor does of an order of its call, or why it does nothing of it."""
+        if order.after in answer.undone and isinstance(order.command, TO_A_RUNWAY):
+            order = replace(order, when=None)  # It does not wait for what is not done.
+        why = order.unable or order.question or self._contradicts(actor, order.instruction)
+        if why is None and order.command is not None:
+            why = self._why_refused(actor, order, answer)
+            if order.when is None and not isinstance(order.command, STOPPING):
+                answer.refused[subject_of(order.command)] = why
+        if why is not None:
+            answer.unable.append(why)
+            if order.command is not None:
+                answer.undone[order.command] = why
+            return
+        answer.accepted.append(order)
+        if order.command is not None and not self._keeps(actor, order.instruction):
+            answer.commands[order.command] = order.when
+
+    def _why_refused(self, actor: str, order: Order, answer: _Answer) -> str | None:
         """Return why an actor does not do an order; None if it does.
 
         Who goes around is not where it was. An approach, and a movement on the ground, is refused
-        with what it follows from in the same call; a stop never is.
+        with what it follows from in the same call; a stop never is. Who is told to stop moves no
+        more for the same call.
         """
         command = order.command
-        if command is None or any(isinstance(each, GoAroundCommand) for each in commands):
+        if command is None or any(isinstance(each, GoAroundCommand) for each in answer.commands):
             return None
+        if order.when is not None and order.after in answer.undone:
+            return answer.undone[order.after]
         subject = subject_of(command)
-        is_first = order.when is not None or subject not in refused
-        before = None if is_first else refused[subject]
-        if subject == "surface" and before is not None and not isinstance(command, STOPPING):
+        is_move = subject == "surface" and not isinstance(command, STOPPING)
+        if answer.stops and is_move and order.when is None:
+            return "unable, told to stop"
+        is_cancelled = any(isinstance(each, CancelTakeoffCommand) for each in answer.commands)
+        if is_cancelled and isinstance(command, TakeOffCommand):
+            return "unable, takeoff cancelled"
+        is_first = order.when is not None or subject not in answer.refused
+        before = None if is_first else answer.refused[subject]
+        if is_move and before is not None:
             return before
         if subject == "approach" and not is_first:
             return before
         return self._refusal(actor, command, order.when)
 
+    def _stops(self, actor: str, order: Order) -> bool:
+        """Return whether an actor stops at once for an order to hold its position."""
+        command = order.command
+        return command is not None and not (order.when or self._refusal(actor, command))
+
     def _keeps(self, actor: str, told: Instruction) -> bool:
-        """Return whether an actor keeps the limit of an instruction already."""
-        limit, now = self._value(actor, told)
-        if limit is None or now is None:
+        """Return whether an actor keeps the limit of an instruction, now and where it goes to."""
+        if told.bound == "or_more" and self._stations.is_approaching(actor):
             return False
-        return now >= limit if told.bound == "or_more" else told.bound is not None and now <= limit
+        limit, *kept = self._value(actor, told)
+        if limit is None or told.bound is None:
+            return False
+        is_or_more = told.bound == "or_more"
+        return all(
+            each is not None and (each >= limit if is_or_more else each <= limit) for each in kept
+        )
 
     def _contradicts(self, actor: str, told: Instruction) -> str | None:
         """Return what an actor asks that is told to climb to below itself, or to descend to above.
 
         None if it is not.
         """
-        level_ft, now_ft = self._value(actor, told)
+        level_ft, now_ft, _ = self._value(actor, told)
         if self._seats.has_person(actor):
             return None
         if told.action != "altitude" or level_ft is None or now_ft is None or told.bound:
@@ -189,13 +231,15 @@ class Compliance:
         at = self._stations.report_of(actor, "altitude", self._context.radio.phraseology)
         return f"say again altitude, we are at {at}"
 
-    def _value(self, actor: str, told: Instruction) -> tuple[float | None, float | None]:
-        """Return the level or speed of an instruction, and that at which an actor flies."""
+    def _value(
+        self, actor: str, told: Instruction
+    ) -> tuple[float | None, float | None, float | None]:
+        """Return the level or speed of an instruction, that of an actor, and the one it goes to."""
         if told.action == "altitude":
-            return told.altitude_ft, self._stations.altitude_ft(actor)
+            return told.altitude_ft, *self._stations.altitudes_ft(actor)
         if told.action == "speed":
-            return told.speed_kt, self._stations.airspeed_kt(actor)
-        return None, None
+            return told.speed_kt, *self._stations.airspeeds_kt(actor)
+        return None, None, None
 
     def _possible(self, actor: str, orders: Sequence[Order]) -> list[Order]:
         """Return orders without the second of two alternatives, or without a first that fails."""
@@ -254,6 +298,8 @@ class Compliance:
             return self._stations.unknown(command.unit, command.frequency_khz)
         if when is not None:
             return self._world.never(when)
+        if isinstance(command, VERTICAL) and self._stations.is_approaching(actor):
+            return "unable, on the approach"
         return self._world.refusal(actor, command)
 
     def _told(self, actor: str, decision: Decision) -> Decision:

@@ -9,16 +9,20 @@ from typing import NamedTuple
 from airhilt.geodesy.wgs84 import Place, distance_and_azimuth
 from airhilt.phraseology.numbers import Style, speak_digits, speak_group, speak_thousands
 from airhilt.phraseology.say import speak_altitude, speak_heading, speak_runway, speak_speed
+from airhilt.phraseology.spoken_actions import speak_place
 from airhilt.phraseology.spoken_forms import is_registration
-from airhilt.phraseology.spoken_values import speak_mach
+from airhilt.phraseology.spoken_values import speak_mach, speak_taxiway
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, POUND
 from airhilt.world.actors.actor import Actor
 from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.site import ScenarioSite
 
 COMPASS = (
     "north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest",
 )  # fmt: skip
 """Points of the compass, from north clockwise."""
+LONGEST_DESIGNATOR = 3
+"""Number of signs of the longest designator of a taxiway; a longer one is a name, such as ramp."""
 IN_SIGHT_M = 10.0 * NAUTICAL_MILE
 """Distance within which a crew has the field in sight: an assumption."""
 
@@ -26,6 +30,7 @@ IN_SIGHT_M = 10.0 * NAUTICAL_MILE
 class Field(NamedTuple):
     """The field that reports are about."""
 
+    site: ScenarioSite
     place: Place
     variation_deg: float
     """Magnetic variation, in degrees, positive east."""
@@ -43,7 +48,7 @@ def report_of(actor: Actor, asked: str, field: Field, style: Style) -> str | Non
         case [*_, "speed" | "airspeed"]:
             return speak_speed(round(_speed_m_s(actor) / KNOT), style)
         case [*_, "position" | "location"]:
-            return _position(actor, field)
+            return _position_on_ground(actor, field, style) or _position(actor, field)
         case ["intentions"] if runway is not None:
             return f"{'to' if actor.body.on_ground else 'landing'} {speak_runway(runway, style)}"
         case [*_, "type"]:
@@ -53,7 +58,8 @@ def report_of(actor: Actor, asked: str, field: Field, style: Style) -> str | Non
         case ["mach", *_] if isinstance(actor.body, Aircraft):
             return speak_mach(round(actor.body.state.mach, 2), style)
         case ["fuel" | "remaining", *_] if isinstance(actor.body, Aircraft):
-            return f"fuel remaining {_pounds(actor.body.fuel_kg, style)}"
+            fuel_kg = actor.body.fuel_kg
+            return None if fuel_kg is None else f"fuel remaining {_pounds(fuel_kg, style)}"
         case ["field" | "airport" | "aerodrome" | "runway" as seen, "in", "sight"]:
             return f"{seen} in sight" if _distance(actor, field)[0] < IN_SIGHT_M else None
         case ["traffic", "in", "sight"]:
@@ -73,6 +79,23 @@ def _position(actor: Actor, field: Field) -> str:
     miles = round(distance_m / NAUTICAL_MILE)
     way = COMPASS[round(bearing_rad / (math.pi / 4.0)) % 8]
     return f"{miles} miles {way} of the field" if miles else "at the field"
+
+
+def _position_on_ground(actor: Actor, field: Field, style: Style) -> str | None:
+    """Return the runway, the stand or the taxiway on which somebody is; None elsewhere."""
+    layout, here = field.site.layout, actor.body.state.place
+    if layout is None or not actor.body.on_ground:
+        return None
+    if runway := layout.runway_at(here):
+        return f"on {speak_runway(runway, style)}"
+    if stand := layout.stand_at(here):
+        return f"at {speak_place(stand.replace('_', ' '), style)}"
+    taxiway = layout.taxiway_at(here)
+    if taxiway is None:
+        return None
+    is_lettered = len(taxiway) <= LONGEST_DESIGNATOR
+    words = f"taxiway {speak_taxiway(taxiway, style)}" if is_lettered else f"the {taxiway}"
+    return f"on {words}"
 
 
 def _type(actor: Actor, style: Style) -> str:

@@ -14,6 +14,7 @@ from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.units import DEGREE, FOOT, KNOT
 from airhilt.world.actors.actor import Actor
 from airhilt.world.actors.listening import Listener
+from airhilt.world.actors.runway_operations import APPROACHING
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import FixedSite, ScenarioSite
 
@@ -35,6 +36,7 @@ class Stations:
 
     def __init__(self, actors: Mapping[str, Actor], site: ScenarioSite, scenario: Scenario) -> None:
         self._actors = actors
+        self._scenario_site = site
         self._ground_m = site.ground_m
         self.variation_deg = site.variation_deg or 0.0
         """Magnetic variation of the place, in degrees, positive east."""
@@ -141,20 +143,30 @@ class Stations:
 
     def report_of(self, callsign: str, asked: str, style: Style) -> str | None:
         """Return what an actor says when it is asked for something; None if it does not know."""
-        field = Field(self._site_place, self.variation_deg)
+        field = Field(self._scenario_site, self._site_place, self.variation_deg)
         return report_of(self._actors[callsign], asked, field, style)
 
-    def altitude_ft(self, callsign: str) -> float | None:
-        """Return the altitude of an aircraft in flight, in ft; None for others."""
-        body = self._actors[callsign].body
-        return None if body.on_ground else body.state.altitude_m / FOOT
+    def altitudes_ft(self, callsign: str) -> tuple[float | None, float | None]:
+        """Return the altitude of an aircraft in flight and that it flies to, in ft; else None."""
+        aircraft = self._flying(callsign)
+        if aircraft is None:
+            return None, None
+        return aircraft.state.altitude_m / FOOT, aircraft.target_altitude_m / FOOT
 
-    def airspeed_kt(self, callsign: str) -> float | None:
-        """Return the calibrated airspeed of an aircraft in flight, in kt; None for others."""
+    def airspeeds_kt(self, callsign: str) -> tuple[float | None, float | None]:
+        """Return the calibrated airspeed of an aircraft in flight and that told, in kt; or None."""
+        aircraft = self._flying(callsign)
+        if aircraft is None:
+            return None, None
+        return aircraft.state.calibrated_airspeed_m_s / KNOT, aircraft.target_speed_m_s / KNOT
+
+    def is_approaching(self, callsign: str) -> bool:
+        """Return whether an actor flies an approach."""
+        return self._actors[callsign].body.phase in APPROACHING
+
+    def _flying(self, callsign: str) -> Aircraft | None:
         body = self._actors[callsign].body
-        if body.on_ground or not isinstance(body, Aircraft):
-            return None
-        return body.state.calibrated_airspeed_m_s / KNOT
+        return body if isinstance(body, Aircraft) and not body.on_ground else None
 
     def on_ground(self, callsign: str) -> bool:
         """Return whether the ground carries an actor."""

@@ -12,6 +12,12 @@ const WHY = {
   NotFoundError: "There is no microphone. Type what you want to say.",
   NotReadableError: "Another program has the microphone. Type what you want to say.",
 };
+/** What is told of the recogniser of the run, by its kind. */
+const UNDERSTANDING = {
+  none: "No recogniser takes part: only people understand you.",
+  embedded:
+    "The embedded recogniser has learned from synthetic voices and hears few people right. If you are not understood, type.",
+};
 const AUDIO = {
   channelCount: 1,
   echoCancellation: false,
@@ -65,10 +71,7 @@ export class Microphone {
     if (!state.has_sound) this.#tell("This run has no sound. Type what you want to say.");
     else if (!state.uses.includes("voice"))
       this.#tell("To speak, choose beside the seat that your voice may be used.");
-    else
-      this.#tell(
-        state.is_recognised ? "" : "No recogniser takes part: only people understand you.",
-      );
+    else this.#tell(UNDERSTANDING[state.recogniser] ?? "");
   }
 
   get #mayOpen() {

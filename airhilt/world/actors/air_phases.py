@@ -5,6 +5,7 @@ from __future__ import annotations
 from airhilt.commands import (
     AltitudeCommand,
     ApproachCommand,
+    CancelLandingCommand,
     Command,
     CrossFixCommand,
     DirectCommand,
@@ -40,6 +41,7 @@ PATTERNS = (OrbitCommand, HoldAtCommand)
 EMERGENCIES = (DriftDownCommand, EmergencyDescentCommand)
 TO_A_RUNWAY = (
     LandCommand,
+    CancelLandingCommand,
     ApproachCommand,
     SideStepCommand,
     JoinCommand,

@@ -8,6 +8,7 @@ from functools import partial
 
 from airhilt.commands import (
     ApproachCommand,
+    CancelLandingCommand,
     CircuitLeg,
     Command,
     ExtendCommand,
@@ -23,6 +24,7 @@ from airhilt.geodesy.wgs84 import Place, distance_m
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Act, Unable, do_nothing
 from airhilt.world.actors.circuit import (
+    SETTLE_S,
     STABLE_CIRCLING_FT,
     STABLE_FT,
     Circuit,
@@ -63,6 +65,11 @@ glide path on top of its 3 degrees."""
 SHARPEST_RAD = 300.0 * DEGREE
 """Greatest sum of the turns from one approach to another runway, in rad: to the opposite direction
 it takes about 240 degrees, a loop more than 360; assumed."""
+GREATEST_SIDE_STEP_RAD = 90.0 * DEGREE
+"""Greatest angle between two runways from one of which a crew side-steps to the other; assumed. The
+manuals have parallel runways alone (FAA Aeronautical Information Manual, 5-4-19)."""
+LEVEL_M = 200.0 * FOOT
+"""Distance in m from a level within which it is flown (AIM 4-5-2)."""
 NEAR_M = 20.0 * NAUTICAL_MILE
 """Distance from the runway within which the way to it is planned, in m; before, the aircraft flies
 straight to it."""
@@ -116,12 +123,14 @@ class Approaches:
         """Return what carries out a command; None for one that is not about an approach."""
         self._used = self._runways.bound_runway or self._used
         match command:
-            case ApproachCommand(runway=runway, kind=kind):
-                return self._plan_approach(self._site.runway(runway), kind)
+            case ApproachCommand(runway=runway, kind=kind, level_ft=level_ft):
+                return self._plan_approach(self._site.runway(runway), kind, level_ft)
             case SideStepCommand(runway=runway):
-                return self._plan_other(self._site.runway(runway))
+                return self._plan_side_step(self._site.runway(runway))
             case LandCommand():
                 return self._plan_landing(command)
+            case CancelLandingCommand():
+                return self._runways.plan_without_clearance()
             case JoinCommand():
                 return self._plan_join(command)
             case ExtendCommand(leg=leg):
@@ -149,7 +158,7 @@ class Approaches:
             return runways.plan_landing(command)
         if self._is_extended and is_bound:
             return runways.plan_clearance(command)
-        take, fly = runways.plan_clearance(command), self._plan_other(end)
+        take, fly = runways.plan_clearance(command), self._plan_other(end, command.level_ft)
 
         def fly_and_land() -> None:
             take()
@@ -176,7 +185,13 @@ class Approaches:
         beyond_m = abs(right_m) / math.tan(abs(angle))
         return final.before_m(here) - beyond_m > self._gate_m(final, STABLE_FT)
 
-    def _plan_other(self, end: RunwayEnd) -> Act:
+    def _plan_side_step(self, end: RunwayEnd) -> Act:
+        final = self._runways.final
+        if final is not None and abs(final.angle_rad(end.course_rad)) > GREATEST_SIDE_STEP_RAD:
+            raise Unable(f"unable, runway {end.ident} is no side step from {final.runway.ident}")
+        return self._plan_other(end)
+
+    def _plan_other(self, end: RunwayEnd, level_ft: float | None = None) -> Act:
         """Return what goes to another runway: a side-step if one is possible, or a turn."""
         if self._phase == "flare":
             raise Unable(f"unable, landing on runway {self._runways.bound_runway}")
@@ -188,19 +203,37 @@ class Approaches:
             return partial(
                 self._runways.begin_approach, end.ident, self._aircraft.procedures.side_step
             )
-        return self._plan_approach(end, "visual")
+        return self._plan_approach(end, "visual", level_ft)
 
-    def _plan_approach(self, end: RunwayEnd, kind: str) -> Act:
+    def _plan_approach(self, end: RunwayEnd, kind: str, level_ft: float | None = None) -> Act:
         if self._phase == "flare":
             raise Unable(f"unable, landing on runway {self._runways.bound_runway}")
         if self._phase == "glide" and self._runways.bound_runway == end.ident:
             return do_nothing
+        if kind == "straight_in" and level_ft is not None and self._intercepts(end, level_ft):
+            return partial(self._runways.intercept, end.ident)
         if kind == "circling" and self._phase in APPROACHING:
             lowest_ft = self._circling_ft()
             if self._height_ft < lowest_ft:
                 raise Unable(f"unable, too low to turn to runway {end.ident}")
             return self._plan_way(end, STABLE_CIRCLING_FT, SHARPEST_RAD)
-        return self._plan_way(end, STABLE_FT, is_long=kind == "straight_in")
+        return self._plan_way(end, STABLE_FT, is_long=kind == "straight_in", level_ft=level_ft)
+
+    def _intercepts(self, end: RunwayEnd, level_ft: float) -> bool:
+        """Return whether the track leads to the final course where the glide path is above a level.
+
+        The aircraft is at the level, or comes down to it on the way there.
+        """
+        if self._phase in APPROACHING or not self._leads_to(end):
+            return False
+        final, slope = self._final(end), math.tan(end.glide_path_rad)
+        along_m, angle = final.before_m(self._here), final.angle_rad(self._aircraft.state.track_rad)
+        if abs(final.right_m(self._here)) > CAPTURE_DISTANCE_M:
+            along_m -= abs(final.right_m(self._here)) / math.tan(abs(angle))
+        flown_m = final.before_m(self._here) - along_m
+        level_m = level_ft * FOOT
+        is_low = self._aircraft.state.altitude_m - level_m < slope * flown_m + LEVEL_M
+        return is_low and level_m - end.elevation_m < slope * min(along_m, LONGEST_FINAL_M)
 
     # --- the way ------------------------------------------------------------------------------
 
@@ -211,16 +244,21 @@ class Approaches:
         sharpest_rad: float = math.inf,
         *,
         is_long: bool = False,
+        level_ft: float | None = None,
     ) -> Act:
-        """Return what flies the shortest way to the final approach of a runway."""
+        """Return what flies the shortest way to the final approach of a runway.
+
+        It is joined where the glide path is above a level in ft.
+        """
         self._require_height()
         final, state, kind = self._final(end), self._aircraft.state, self._aircraft.kind
         if distance_m(self._here, end.threshold) > NEAR_M:
-            return partial(self._go_there, final)
+            return partial(self._go_there, final, level_ft)
         least_m = self._gate_m(final, stable_ft)
         if is_long:
             ahead_m = final.before_m(self._here) - radius_now_m(kind, state)
             least_m = max(least_m, min(LONG_FINAL_M, ahead_m))
+        least_m = max(least_m, self._joined_m(end, level_ft))
         for longer_m in _longer_m(LONGEST_FINAL_M - least_m):
             gate = final.pose(least_m + longer_m)
             way = joined([self._pose, gate], radius_now_m(kind, state), last_radius_m(kind, state))
@@ -228,10 +266,19 @@ class Approaches:
                 continue
             curve = to_threshold(final, way, gate)
             if self._descends_well(end, curve):
-                return self._flown(end, curve)
+                return self._flown(end, curve, level_ft=level_ft)
         if sharpest_rad < math.inf:
             raise Unable(f"unable, too close to turn to runway {end.ident}")
         raise Unable(f"unable, too high for runway {end.ident}")
+
+    def _joined_m(self, end: RunwayEnd, level_ft: float | None) -> float:
+        """Return how far before the threshold a final approach is joined at a level."""
+        if level_ft is None:
+            return 0.0
+        glide_m = (level_ft * FOOT - end.elevation_m) / math.tan(end.glide_path_rad)
+        if glide_m > LONGEST_FINAL_M:
+            raise Unable(f"unable {level_ft:g} ft until final on runway {end.ident}")
+        return glide_m + SETTLE_S * self._aircraft.kind.speeds.minimum_clean_kt * KNOT
 
     def _descends_well(self, end: RunwayEnd, curve: Sequence[Piece]) -> bool:
         height_m = self._aircraft.state.altitude_m - end.elevation_m
@@ -248,40 +295,44 @@ class Approaches:
         pieces: Sequence[Piece],
         circuit: Circuit | None = None,
         poses: Mapping[CircuitLeg, Pose] | None = None,
+        level_ft: float | None = None,
     ) -> Act:
-        """Return what flies a curve to a runway, in its circuit's height or as low as it is.
+        """Return what flies a curve to a runway, at a level, its circuit's height, or below that.
 
         The circuit is that of which the curve is a part, with its poses on the legs.
         """
         height_m = circuit_height_m(self._aircraft.kind)
         lowest_m = self._circling_ft() * FOOT
         level_m = max(min(self._height_ft * FOOT, height_m), lowest_m) + end.elevation_m
+        level_m = level_m if level_ft is None else level_ft * FOOT
         curve = Curve(self._site.airport.local_frame, pieces)
         flown = None if circuit is None else JoinedCircuit(circuit, curve, poses or {})
 
         def fly(runway: RunwayEnd, exit_path: Sequence[Place]) -> None:
-            self._aircraft.procedures.approach(runway, curve, level_m, exit_path)
+            self._aircraft.procedures.approach(
+                runway, curve, level_m, exit_path, keeps_level=level_ft is not None
+            )
             self._joined = flown
 
         return partial(self._runways.begin_approach, end.ident, fly)
 
-    def _go_there(self, final: FinalApproach) -> None:
+    def _go_there(self, final: FinalApproach, level_ft: float | None) -> None:
         """Fly straight to a runway that is far away, and plan the way there once it is near."""
         end = final.runway
         self._runways.bind(end.ident)
         self._aircraft.en_route.fly_route([end.threshold])
-        self._runways.wait(partial(self._approach_once_near, end))
+        self._runways.wait(partial(self._approach_once_near, end, level_ft))
 
-    def _approach_once_near(self, end: RunwayEnd) -> bool:
+    def _approach_once_near(self, end: RunwayEnd, level_ft: float | None) -> bool:
         away_m = distance_m(self._here, end.threshold)
-        lowest_m = end.elevation_m + ARRIVAL_HEIGHT_M
+        lowest_m = end.elevation_m + ARRIVAL_HEIGHT_M if level_ft is None else level_ft * FOOT
         above_m = self._aircraft.state.altitude_m - lowest_m
         is_due = above_m > math.tan(end.glide_path_rad) * (away_m - NEAR_M)
         if is_due and self._aircraft.target_altitude_m > lowest_m:
             self._aircraft.en_route.hold_altitude(lowest_m)
         if away_m > NEAR_M:
             return False
-        self._plan_way(end, STABLE_FT)()
+        self._plan_way(end, STABLE_FT, level_ft=level_ft)()
         return True
 
     # --- the circuit --------------------------------------------------------------------------
@@ -299,17 +350,19 @@ class Approaches:
             raise Unable(f"unable, landing on runway {self._runways.bound_runway}")
         final = self._final(end)
         if distance_m(self._here, end.threshold) > NEAR_M:
-            return partial(self._go_there, final)
+            return partial(self._go_there, final, command.level_ft)
         circuit = self._circuit(final, command.side)
         if command.leg == "base" and circuit.is_on("downwind", self._here, state.track_rad):
             circuit = Circuit(final, kind, circuit.side, state, STABLE_CIRCLING_FT)
         nearest = circuit.poses(command.leg, self._here, state.track_rad)
+        gate = final.before_m(self._site.airport.local_frame.to_place(*nearest["final"][:2]))
+        nearest = _farther(nearest, max(self._joined_m(end, command.level_ft) - gate, 0.0))
         # A straight-in approach goes straight in, or not at all.
         for longer_m in _longer_m(0.0 if command.leg == "final" else LONGEST_FINAL_M):
             poses = _farther(nearest, longer_m)
             curve = to_threshold(final, self._through(*poses.values()), poses["final"])
             if self._descends_well(end, curve):
-                return self._flown(end, curve, circuit, poses)
+                return self._flown(end, curve, circuit, poses, command.level_ft)
         raise Unable(f"unable, too high for the circuit of runway {end.ident}")
 
     def _circuit(self, final: FinalApproach, side: Side | None) -> Circuit:
@@ -419,7 +472,7 @@ class Approaches:
             return self._plan_balked_landing(climb_to_m)
         is_above = climb_to_m > aircraft.state.altitude_m
         to_m = climb_to_m if is_above else runways.usual_climb_m()
-        if self._phase in APPROACHING:
+        if runways.is_arriving:
             return partial(runways.break_off, to_m)
         if self._phase == "go_around" or runways.bound_runway is not None:
 

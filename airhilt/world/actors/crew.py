@@ -17,6 +17,7 @@ from airhilt.commands import (
     DriftDownCommand,
     EmergencyDescentCommand,
     FollowCommand,
+    GoAroundCommand,
     HoldAtCommand,
     HoldPositionCommand,
     HoldShortCommand,
@@ -44,7 +45,7 @@ from airhilt.messages import (
     Recommendation,
     Turn,
 )
-from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels
+from airhilt.scenario.models import RESPONSE_MODELS, AircraftSpec, Channel, Channels, OnTrack
 from airhilt.surveillance.radar import discrete_code
 from airhilt.surveillance.transponders import EMERGENCY_CODES, GENERAL_EMERGENCY
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
@@ -57,7 +58,7 @@ from airhilt.world.actors.actor import (
     refusal_by,
     saying_unable,
 )
-from airhilt.world.actors.air_phases import refusal_in_phase
+from airhilt.world.actors.air_phases import EMERGENCIES, TO_A_RUNWAY, refusal_in_phase
 from airhilt.world.actors.approaches import Approaches
 from airhilt.world.actors.behind import BehindTraffic
 from airhilt.world.actors.departure import Departure
@@ -69,12 +70,10 @@ from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel, Respons
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.actors.traffic import Traffic
 from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.flight.following import GEAR_DOWN_BELOW_M
 from airhilt.world.flight.procedures.en_route import EmergencyDescent
 from airhilt.world.site import ScenarioSite
 
-GEAR_DOWN_BELOW_M = 600.0
-"""Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
-11 km before the threshold."""
 ENDS_DEPARTURE = (
     TaxiCommand,
     TaxiToCommand,
@@ -87,6 +86,8 @@ ENDS_DEPARTURE = (
 """Commands after which an aircraft lines up or takes off only when it is told again."""
 ON_TO_A_RUNWAY = (TakeOffCommand, LineUpCommand, ContinueCommand, CrossCommand)
 """Commands by which an aircraft goes on to a runway, or takes off from it."""
+ENDS_CROSSING = (AltitudeCommand, *EMERGENCIES, *TO_A_RUNWAY, GoAroundCommand)
+"""Commands after which an aircraft goes on to no other level beyond a fix."""
 FLOWN = (
     AltitudeCommand,
     TrackCommand,
@@ -143,8 +144,10 @@ class Crew:
         self._reactions = ReactionModel(spec.callsign, responses, spec.pilot, seed)
         self._site = site
         self._envelope = Envelope(aircraft, site.ground_m)
-        self._return_lateral: Callable[[], None] = partial(
-            aircraft.en_route.hold_track, aircraft.state.track_rad
+        self._return_lateral: Callable[[], None] = (
+            aircraft.en_route.resume_route
+            if isinstance(spec.initial, OnTrack)
+            else partial(aircraft.en_route.hold_track, aircraft.state.track_rad)
         )
         self._altitude_before_m = aircraft.target_altitude_m
         self._followed: dict[str, int] = {}
@@ -213,13 +216,17 @@ class Crew:
         with saying_unable():
             if (command := self._behind.due()) is not None:
                 self._carry_out(command)
+            self._en_route.attend()
             self._ground.attend()
             self._departure.attend()
             self.runway_operations.attend()
 
     def _carry_out(self, command: Command) -> None:
         with saying_unable():
-            self._plan(command)()
+            act = self._plan(command)
+            if isinstance(command, ENDS_CROSSING):
+                self._en_route.forget()
+            act()
 
     def _plan(self, command: Command) -> Act:
         """Return what carries out a command.

@@ -29,6 +29,7 @@ from airhilt.world.flight import standard_atmosphere
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.curves import Curve, Pose, line, shortest, turn
 from airhilt.world.site import ScenarioSite
+from airhilt.world.truth.flown_conditions import has_passed
 
 STANDARD_RATE_RAD_S = 3.0 * DEGREE
 """Greatest turn rate of an orbit or a hold, in rad/s (ICAO Doc 8168 volume I, holding: 3 degrees a
@@ -41,6 +42,8 @@ SAME_PLACE_M = 0.1 * NAUTICAL_MILE
 """Distance in m within which a fix is a waypoint of the route."""
 PART_OF_RATE = 0.97
 """Part of the distance to a fix in which a level is reached that is told for it; assumed."""
+LEVEL_M = 200.0 * FOOT
+"""Distance in m from a level that is still to be reached (AIM 4-5-2)."""
 
 
 class EnRouteOperations:
@@ -52,6 +55,8 @@ class EnRouteOperations:
     def __init__(self, aircraft: Aircraft, site: ScenarioSite) -> None:
         self._aircraft = aircraft
         self._site = site
+        self._beyond: tuple[Place, float, float] | None = None
+        """Fix to pass, the altitude there, and that to go on to from there, in m."""
 
     def plan(self, command: Command) -> Act | None:
         """Return what carries out a command; None for one that is about something else."""
@@ -137,15 +142,19 @@ class EnRouteOperations:
     # --- vertical, and speed ------------------------------------------------------------------
 
     def _plan_crossing(self, command: CrossFixCommand) -> Act:
-        self._require_no_approach()
         aircraft, place = self._aircraft, self._fix(command.fix)
-        bearing = azimuth(self._aircraft.state.place, place) - self._track_rad
+        here, level_m = aircraft.state.place, command.altitude_ft * FOOT
+        bearing = azimuth(here, place) - self._track_rad
         route = aircraft.en_route.waypoints_ahead
         if math.cos(bearing) < 0.0 and not any(distance_m(p, place) < SAME_PLACE_M for p in route):
             raise Unable(f"unable, {command.fix} is behind us")
-        change_m = command.altitude_ft * FOOT - aircraft.state.altitude_m
+        change_m = level_m - aircraft.state.altitude_m
+        if (command.bound == "or_more" and change_m < 0.0) or (
+            command.bound == "or_less" and change_m > 0.0
+        ):
+            return partial(self._stay, command, place, None)
         speed_m_s = max(aircraft.state.ground_speed_m_s, 1.0)
-        time_s = PART_OF_RATE * distance_m(self._aircraft.state.place, place) / speed_m_s
+        time_s = PART_OF_RATE * distance_m(here, place) / speed_m_s
         rate_m_s = abs(change_m) / max(time_s, 1.0)
         speeds = aircraft.kind.speeds
         greatest_fpm = (
@@ -154,10 +163,35 @@ class EnRouteOperations:
         if rate_m_s > greatest_fpm * FOOT_PER_MINUTE:
             raise Unable(f"unable {command.altitude_ft:g} ft by {command.fix}")
         rate_m_s = max(rate_m_s, min(speeds.climb_rate_fpm, greatest_fpm) * FOOT_PER_MINUTE)
-        return partial(aircraft.en_route.hold_altitude, command.altitude_ft * FOOT, rate_m_s)
+        return partial(self._stay, command, place, rate_m_s)
+
+    def _stay(self, command: CrossFixCommand, place: Place, rate_m_s: float | None) -> None:
+        """Fly to where the fix is passed, and remember the level beyond it that was told before."""
+        aircraft, level_m = self._aircraft, command.altitude_ft * FOOT
+        told_m, now_m = aircraft.target_altitude_m, aircraft.state.altitude_m
+        by_m = {"or_more": max(told_m, level_m), "or_less": min(told_m, level_m)}.get(
+            command.bound or "", level_m
+        )
+        if by_m != told_m or rate_m_s is not None:
+            aircraft.en_route.hold_altitude(by_m, rate_m_s)
+        is_on_the_way = abs(told_m - now_m) > LEVEL_M and by_m != told_m
+        self._beyond = (place, by_m, told_m) if is_on_the_way else None
+
+    def forget(self) -> None:
+        """Go on to no other level beyond a fix."""
+        self._beyond = None
+
+    def attend(self) -> None:
+        """Go on to the level beyond a fix once that has been passed."""
+        if self._beyond is None:
+            return
+        place, by_m, told_m = self._beyond
+        is_kept = abs(self._aircraft.target_altitude_m - by_m) < 1.0
+        if is_kept and has_passed(self._aircraft.state, place):
+            self._beyond = None
+            self._aircraft.en_route.hold_altitude(told_m)
 
     def _plan_rate(self, rate_fpm: float) -> Act:
-        self._require_no_approach()
         aircraft = self._aircraft
         target_m, altitude_m = aircraft.target_altitude_m, aircraft.state.altitude_m
         if abs(target_m - altitude_m) < 100.0 * FOOT:
@@ -209,10 +243,6 @@ class EnRouteOperations:
     def _require_height(self) -> None:
         if self._aircraft.state.height_agl_m < LOWEST_HEIGHT_FT * FOOT:
             raise Unable("unable, too low to turn")
-
-    def _require_no_approach(self) -> None:
-        if self._aircraft.phase in APPROACHING:
-            raise Unable("unable, on the approach")
 
 
 def _sign(side: Side) -> float:

@@ -16,6 +16,7 @@ from airhilt.scenario.models import (
     HoldingShort,
     LinedUp,
     OnFinal,
+    OnTrack,
     Scenario,
     Standing,
     VehicleSpec,
@@ -32,6 +33,7 @@ from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.model import ModelError
 from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround
+from airhilt.world.flight.track import TrackPoint, points_of
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
 from airhilt.world.surface.ways import NOSE_MARGIN_M
@@ -97,12 +99,14 @@ class _Builder:
         site = self.site
         kind = load_aircraft_type(actor.aircraft, self.scenario.files)
         route = [site.place(position) for position in actor.route]
-        condition: InitialCondition | OnGround
+        condition: InitialCondition | OnGround | tuple[TrackPoint, ...]
         match actor.initial:
             case Airborne() as initial:
                 condition = _airborne(initial, site, route)
             case OnFinal() as initial:
                 condition = _on_final(initial, site, kind.speeds.approach_kt * KNOT)
+            case OnTrack() as initial:
+                condition = points_of(initial)
             case initial:
                 place, heading = _on_ground(initial, site, kind.dimensions.length_m)
                 condition = OnGround(*place, heading, isinstance(initial, LinedUp))

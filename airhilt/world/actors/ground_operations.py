@@ -44,8 +44,6 @@ if TYPE_CHECKING:
     from airhilt.world.surface.layout import Hold
     from airhilt.world.surface.strips import RunwayStrip
 
-AT_STAND_M = 5.0
-"""Distance from a stand within which an aircraft is parked on it, in m."""
 BEHIND_M = 60.0
 """Distance that is kept between the tail of who is followed and the nose, in m; assumed: about two
 lengths of a narrow-body airliner."""
@@ -454,7 +452,7 @@ class GroundOperations:
         reach_m = leader.body.dimensions.length_m / 2.0
         before = next((place for place in way[::-1] if distance_m(place, there) > reach_m), way[0])
         is_from_ahead = math.cos(azimuth(there, before) - state.heading_rad) > 0.0
-        return not is_from_ahead and self._stand_at(there) is None
+        return not is_from_ahead and self._site.airport.stand_at(there) is None
 
     def _attend_awaited(self, command: FollowCommand, leader: Actor, seen: Place) -> None:
         """See whether who is to be followed has passed, each time that it has moved on."""
@@ -567,11 +565,4 @@ class GroundOperations:
     @property
     def stand(self) -> str | None:
         """Return the stand on which the body is parked."""
-        return self._stand_at(self._here)
-
-    def _stand_at(self, place: Place) -> str | None:
-        airport = self._site.airport
-        near = (
-            each for each in airport.stands if distance_m(airport.node(each), place) < AT_STAND_M
-        )
-        return next(near, None)
+        return self._site.airport.stand_at(self._here)

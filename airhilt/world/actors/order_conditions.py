@@ -76,6 +76,12 @@ def is_departed(condition: str) -> bool:
     return _DEPARTED.fullmatch(condition) is not None
 
 
+def is_event(until: str | None) -> bool:
+    """Return whether a limit ends by another event than being established on the approach."""
+    words = (until or "").removeprefix("until ").removeprefix("till ")
+    return bool(words) and _ESTABLISHED.fullmatch(words) is None
+
+
 def condition_of(words: str, callsign: str, before: Iterable[Command]) -> Condition | None:
     """Return the condition in some words for an actor; None if they name none that is known.
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Literal, NamedTuple, cast, get_args
+from dataclasses import dataclass, replace
+from typing import Literal, cast, get_args
 
 import pydantic
 from pydantic import BaseModel
@@ -15,6 +15,7 @@ from airhilt.commands import (
     ApproachCommand,
     BacktrackCommand,
     BehindCommand,
+    CancelLandingCommand,
     CancelTakeoffCommand,
     CircuitLeg,
     Command,
@@ -65,12 +66,13 @@ from airhilt.world.actors.order_conditions import (
     done,
     fix_named,
     is_departed,
+    is_event,
     reported,
 )
 from airhilt.world.actors.traffic import DOING, passing
 
 NOTHING_MOVES: frozenset[Action] = frozenset(
-    {"squawk", "ident", "say", "stand_by", "continue_approach", "start_up",
+    {"squawk", "ident", "say", "stand_by", "start_up",
      "expedite", "visual_separation", "no_speed_restrictions", "wildlife", "wildlife_gone"}
 )  # fmt: skip
 """Actions after which nobody moves: what they ask for is done by reading them back, or by what the
@@ -84,9 +86,6 @@ BEHIND = re.compile(
 """Condition to wait for other traffic (ICAO Doc 4444, 12.2.7: "behind landing 737")."""
 WAITING = get_args(BehindCommand.model_fields["command"].annotation)
 """Commands that wait for other traffic."""
-ON_THE_WAY: frozenset[Action] = frozenset({"cross", "hold_short", "taxi"})
-"""Actions that may be part of another clearance in the same call: to taxi, to follow, to land."""
-
 
 Subject = Literal["level", "speed", "track", "approach", "radio", "report", "surface"]
 _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
@@ -100,16 +99,29 @@ _ABOUT: Mapping[Subject, tuple[type[BaseModel], ...]] = {
         HoldAtCommand,
     ),
     "approach": (
-        LandCommand, GoAroundCommand, ApproachCommand, SideStepCommand, JoinCommand, ExtendCommand,
-        ShortApproachCommand, ReturnToFieldCommand,
+        LandCommand, CancelLandingCommand, GoAroundCommand, ApproachCommand, SideStepCommand,
+        JoinCommand, ExtendCommand, ShortApproachCommand, ReturnToFieldCommand,
     ),
     "radio": (ContactCommand,),
     "report": (ReportCommand,),
 }  # fmt: skip
 """Commands in the air and on the radio, by what they are about; all others are about movement on
 the surface."""
-APPROACHES: frozenset[Action] = frozenset({"cleared_approach", "circle", "side_step", "join"})
-"""Actions whose runway is that of a clearance behind them in the same call."""
+LANDINGS: frozenset[Action] = frozenset(
+    {"cleared_to_land", "touch_and_go", "cleared_option", "stop_and_go", "low_approach"}
+)
+APPROACHES: frozenset[Action] = frozenset(
+    {"cleared_approach", "circle", "side_step", "join", "continue_approach"}
+)
+DEPARTURES: frozenset[Action] = frozenset({"line_up", "cleared_for_takeoff", "backtrack"})
+FOR_NOW: frozenset[Action] = LANDINGS - {"cleared_to_land"}
+"""Landings after which something else at a runway may be told in the same call."""
+TO_FINAL: frozenset[Action] = frozenset({"cleared_to_land", "cleared_approach", "circle", "join"})
+"""Actions with which a level is kept until the final approach."""
+TO_A_RUNWAY = (LandCommand, ApproachCommand, JoinCommand)
+"""Commands by which an aircraft flies to a runway."""
+AFTER_LANDING = (TaxiToCommand, FollowCommand, GiveWayCommand, CrossCommand, ContinueCommand)
+"""Commands that wait until the runway has been left, if the same call is about leaving it."""
 
 
 class NotUnderstood(Exception):
@@ -129,6 +141,33 @@ class Order:
     """What the actor asks before it can be carried out; empty if nothing is missing."""
     when: Condition | None = None
     """Condition that the actor waits for; None: it carries it out now."""
+    after: Command | None = None
+    """Command of the same call for whose end it waits, which nobody had to say."""
+    part_of: Instruction | None = None
+    """Clearance in the same call that has it as a detail; it is done or refused with that."""
+    alone: Command | None = None
+    """What is done of it if that clearance is refused; None: nothing."""
+
+    @property
+    def rank(self) -> int:
+        """Place in the order of doing: as in the call, except for what would undo something.
+
+        What ends a clearance comes first. A level and a way come before the approach, which goes on
+        from them, and a level before what is said about the way to it. A speed is kept, and an
+        orbit flown, on the approach. Who stops stands in the end.
+        """
+        match self.command:
+            case GoAroundCommand() | CancelTakeoffCommand() | CancelLandingCommand():
+                return 0
+            case VerticalRateCommand() | CrossFixCommand():
+                return 2
+            case OrbitCommand() | SpeedCommand() | MachCommand() | ResumeSpeedCommand():
+                return 4
+            case HoldPositionCommand():
+                return 5
+            case None:
+                return 3
+        return 1 if subject_of(self.command) in ("level", "track") else 3
 
 
 def orders_of(
@@ -140,48 +179,90 @@ def orders_of(
     """Return the orders that instructions give to an actor, by its callsign, one for each.
 
     Headings are magnetic, and are flown as true tracks: without wind. The variation is in degrees,
-    positive east. An instruction without a runway means the one that the actor is going to use. A
-    runway that is named with an approach is that of what follows in the call. A level that comes
-    with a takeoff or a go-around is the level that it climbs to, and a heading that comes with a
-    takeoff is flown after it. A limit is kept by flying at it; that of a low approach is part of
-    its clearance. What a call with a taxi clearance says about runways to cross and where to hold
-    short is part of that clearance, and so is where to hold short with whom to follow, and the
-    runway to hold short of with a clearance to land.
+    positive east. An instruction without a runway means the one that the rest of the call names, or
+    the one that the actor is going to use. A level that comes with a takeoff or a go-around is the
+    level that it climbs to, and a heading that comes with a takeoff is flown after it. A level that
+    comes with an approach or a landing is kept until the final approach, and the approach follows
+    the heading, or the fix, that comes with it. A limit is kept by flying at it; that of a low
+    approach is part of its clearance. What a call with a taxi clearance says about runways to cross
+    and where to hold short is part of that clearance, and so is where to hold short with whom to
+    follow, and the runway to hold short of with a clearance to land.
     """
     given = tuple(instructions)
-    now = [each for each in given if not each.is_conditional]
-    levels = (each for each in now if each.action == "altitude")
-    level_ft = next((each.altitude_ft for each in levels if each.altitude_ft is not None), None)
-    climbs = any(each.action in ("cleared_for_takeoff", "go_around") for each in now)
-    heading_deg = _heading_after_takeoff(given)
-    details = _details(now)
+    details = _details(given, variation_deg)
     orders: list[Order] = []
-    for each in given:
-        is_part = not each.is_conditional and any(each in part.of for part in details)
-        is_level = climbs and each.action == "altitude"
-        is_level |= (
-            each.action == "heading"
-            and not _is_turn_at(each)
-            and (heading_deg is not None or (climbs and each.heading_deg is None))
-        )
+    for index, each in enumerate(given):
+        runway = _runway_in_call(given, index) or bound_runway
+        detail = next((one for one in details if any(each is part for part in one.parts)), None)
         if each.action == "report":
-            orders.append(_report(each, callsign, orders))
-        elif each.action in NOTHING_MOVES or is_level or is_part:
-            orders.append(Order(each))
+            order = _report(each, callsign, orders)
+        elif each.action in NOTHING_MOVES or _goes_on(each, runway):
+            order = Order(each)
         else:
-            order = _order(each, bound_runway, level_ft, variation_deg, details)
+            order = _order(each, given, runway, variation_deg, details)
             if each.condition is not None and order.command is not None:
                 order = _once(each, order.command, callsign, orders)
-            elif orders and (last := orders[-1].command) and _follows(order.command, last):
-                order = Order(each, order.command, when=done(last, callsign))
-            if heading_deg is not None and isinstance(order.command, TakeOffCommand):
-                track_deg = (heading_deg + variation_deg) % 360.0
-                command = order.command.model_copy(update={"track_deg": track_deg})
-                order = Order(each, command)
-            orders.append(order)
-        if each.action in APPROACHES and each.runway is not None:
-            bound_runway = each.runway
-    return tuple(orders)
+        if detail is not None:
+            alone = order.command if detail.is_done_alone and not each.is_conditional else None
+            order = Order(each, part_of=detail.to, alone=alone)
+        orders.append(order)
+    return tuple(_waiting(order, orders, callsign) for order in orders)
+
+
+def _runway_in_call(given: Sequence[Instruction], index: int) -> str | None:
+    """Return the runway that the rest of a call names for an instruction without one.
+
+    What is told for after a touch-and-go does not say where that is.
+    """
+    action, runway = given[index].action, given[index].runway
+    if runway is not None and action != "continue_approach":
+        return runway
+    if action in DEPARTURES:
+        kind: frozenset[Action] = DEPARTURES
+        before: frozenset[Action] = DEPARTURES | {"taxi"}
+    else:
+        kind = before = LANDINGS | APPROACHES if action in LANDINGS | APPROACHES else frozenset()
+    named = [one.runway for one in given[:index] if one.action in before and one.runway]
+    if named:
+        return named[-1]
+    if action in FOR_NOW or runway is not None:
+        return None
+    return next((one.runway for one in given[index:] if one.action in kind and one.runway), None)
+
+
+def _goes_on(told: Instruction, runway: str | None) -> bool:
+    """Return whether an approach goes on to the runway to which it is flown anyway."""
+    is_same = runway is not None and told.runway in (None, runway)
+    return told.action == "continue_approach" and is_same
+
+
+def _waiting(order: Order, orders: Sequence[Order], callsign: str) -> Order:
+    """Return an order with the condition that follows from the rest of its call, if one does."""
+    command = order.command
+    if command is None or order.when is not None or order.instruction.is_conditional:
+        return order
+    before = [each for each in orders[: orders.index(order)] if each.command is not None]
+    now = [each.command for each in orders if each.when is None]
+    last = before[-1].command if before else None
+    after: Command | None = None
+    if isinstance(command, TO_A_RUNWAY):
+        if any(isinstance(each, HoldAtCommand) for each in now):
+            return Order(order.instruction, unable="unable approach, told to hold")
+        if not any(isinstance(each, GoAroundCommand) for each in now):
+            after = _last(now, TrackCommand, DirectCommand)
+    if last is not None and _follows(command, last):
+        after = last
+    if isinstance(command, AFTER_LANDING):
+        after = _last([each.command for each in before], LandCommand, VacateCommand, TurnAtCommand)
+    elif isinstance(command, ContactCommand) and isinstance(last, AFTER_LANDING):
+        waits = _waiting(before[-1], orders, callsign)
+        return replace(order, when=waits.when, after=waits.after)
+    when = None if after is None else done(after, callsign)
+    return order if when is None else replace(order, when=when, after=after)
+
+
+def _last(commands: Sequence[Command | None], *types: type[BaseModel]) -> Command | None:
+    return next((each for each in reversed(commands) if isinstance(each, types)), None)
 
 
 def _follows(command: Command | None, last: Command) -> bool:
@@ -208,49 +289,99 @@ def _report(told: Instruction, callsign: str, before: Sequence[Order]) -> Order:
     return Order(told, ReportCommand(action="report", words=what), when=when)
 
 
-def _heading_after_takeoff(given: Sequence[Instruction]) -> float | None:
-    """Return the heading that comes with a takeoff clearance; None if there is none."""
-    if not any(each.action == "cleared_for_takeoff" for each in given):
-        return None
-    return next(
-        (
-            each.heading_deg
-            for each in given
-            if each.action == "heading" and (each.condition is None or is_departed(each.condition))
-        ),
-        None,
-    )
-
-
-class _Detail(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class _Detail:
     """Instructions that say one thing about a clearance in the same call, and what they say."""
 
-    of: tuple[Instruction, ...]
-    about: type[BaseModel]
-    """Command of the clearance."""
+    to: Instruction
+    """The clearance."""
+    parts: tuple[Instruction, ...]
     told: Mapping[str, object]
+    is_done_alone: bool = False
+    """True if what they say is done, or refused, by itself if the clearance is refused."""
 
 
-def _details(given: Sequence[Instruction]) -> list[_Detail]:
+def _details(call: Sequence[Instruction], variation_deg: float) -> list[_Detail]:
     """Return what instructions of a call say about its other clearances."""
-    taxis = any(each.action == "taxi" and (each.runway or each.position or each.via)
-                for each in given)  # fmt: skip
-    does = {each.action for each in given}
-    crossed = tuple(each for each in given if each.action == "cross" and each.runway)
+    given = [each for each in call if not each.is_conditional]
+    first: dict[Action, Instruction] = {}
+    for each in given:
+        first.setdefault(each.action, each)
+    takeoffs = (each for each in call if each.action == "cleared_for_takeoff")
+    takeoff = next(takeoffs, None)
+    around = next((each for each in given if _is_go_around(each, given)), None)
+    details = _of_climb(around or takeoff, given)
+    if takeoff is not None:
+        details += _of_takeoff(takeoff, call, variation_deg)
+    if around is None:
+        details += _of_approach(given)
+    return [*details, *_of_way(given, first)]
+
+
+def _is_go_around(told: Instruction, call: Sequence[Instruction]) -> bool:
+    """Return whether an instruction ends an approach; who is to continue goes on with it."""
+    if told.action == "cancel_landing":
+        return not any(each.action == "continue_approach" for each in call)
+    return told.action in ("go_around", "missed_approach", "cancel_approach")
+
+
+def _of_climb(climb: Instruction | None, given: Sequence[Instruction]) -> list[_Detail]:
+    """Return what is said about a takeoff or a go-around: a level, and to keep the heading."""
+    if climb is None:
+        return []
+    levels = tuple(each for each in given if each.action == "altitude" and each.altitude_ft)
+    present = tuple(
+        each for each in given
+        if each.action == "heading" and each.heading_deg is None and not _is_turn_at(each)
+    )  # fmt: skip
+    level = {"climb_to_ft": levels[0].altitude_ft} if levels else {}
+    return [_Detail(climb, levels, level, is_done_alone=True), _Detail(climb, present, {})]
+
+
+def _of_takeoff(
+    takeoff: Instruction, call: Sequence[Instruction], variation_deg: float
+) -> list[_Detail]:
+    """Return the heading that comes with a takeoff clearance, and is flown after it."""
+    headings = (each for each in call if each.action == "heading" and each.heading_deg is not None)
+    after = (each for each in headings if each.condition is None or is_departed(each.condition))
+    told = next(after, None)
+    if told is None or told.heading_deg is None:
+        return []
+    track_deg = (told.heading_deg + variation_deg) % 360.0
+    return [_Detail(takeoff, (told,), {"track_deg": track_deg}, is_done_alone=True)]
+
+
+def _of_approach(given: Sequence[Instruction]) -> list[_Detail]:
+    """Return the level that comes with an approach, and is kept until the final approach."""
+    levels = [each for each in given if each.action == "altitude" and each.bound != "or_less"]
+    if not levels or levels[0].altitude_ft is None or is_event(levels[0].until):
+        return []
+    to = (each for each in given if each.action in TO_FINAL)
+    return [_Detail(each, (), {"level_ft": levels[0].altitude_ft}) for each in to]
+
+
+def _of_way(given: Sequence[Instruction], first: Mapping[Action, Instruction]) -> list[_Detail]:
+    """Return what is said about a way over the ground, a landing or a low approach."""
     short = tuple(each for each in given if each.action == "hold_short" and _short_of(each))
     names = tuple(_short_of(each) for each in short)
+    if follow := first.get("follow"):  # Its way is that of who is followed.
+        at = next(index for index, each in enumerate(given) if each is follow)
+        to = tuple(each for each in given[at:] if each.action == "taxi")
+        stops = _Detail(follow, short, {"hold_short": names}, is_done_alone=True)
+        return [stops, _Detail(follow, to, {})]
+    ways = (each for each in given if each.action == "taxi")
+    taxi = next((each for each in ways if each.runway or each.position or each.via), None)
+    if taxi is not None:
+        crossed = tuple(each for each in given if each.action == "cross" and each.runway)
+        return [
+            _Detail(taxi, crossed, {"cross": tuple(each.runway for each in crossed)}),
+            _Detail(taxi, short, {"hold_short": names}, is_done_alone=True),
+        ]
+    if (land := first.get("cleared_to_land")) and short and short[0].runway:
+        return [_Detail(land, short[:1], {"hold_short": short[0].runway})]
     least = tuple(each for each in given if each.action == "altitude" and each.bound == "or_more")
-    if "follow" in does:  # Its way is that of who is followed.
-        first = next(index for index, each in enumerate(given) if each.action == "follow")
-        to = tuple(each for each in given[first:] if each.action == "taxi")
-        return [_Detail((*short, *to), FollowCommand, {"hold_short": names})]
-    if taxis:
-        told = {"cross": tuple(each.runway for each in crossed), "hold_short": names}
-        return [_Detail((*crossed, *short), TaxiToCommand, told)]
-    if "cleared_to_land" in does and short and short[0].runway:
-        return [_Detail(short[:1], LandCommand, {"hold_short": short[0].runway})]
-    if "low_approach" in does and least:
-        return [_Detail(least[:1], LandCommand, {"not_below_ft": least[0].altitude_ft})]
+    if (low := first.get("low_approach")) and least:
+        return [_Detail(low, least[:1], {"not_below_ft": least[0].altitude_ft})]
     return []
 
 
@@ -266,23 +397,43 @@ def _is_turn_at(told: Instruction) -> bool:
 
 def _order(
     instruction: Instruction,
+    call: Sequence[Instruction],
     bound_runway: str | None,
-    level_ft: float | None,
     variation_deg: float,
     details: Sequence[_Detail],
 ) -> Order:
+    if _is_broken(instruction, call):
+        return Order(instruction, unable=f"unable to keep a level {instruction.until}")
+    if instruction.action == "cancel_landing" and not _is_go_around(instruction, call):
+        return Order(instruction, CancelLandingCommand(action="cancel_landing"))
     try:
-        command = _command(instruction, bound_runway, level_ft, variation_deg)
-        for detail in details:
-            if isinstance(command, detail.about):
-                command = command.model_validate({**command.model_dump(), **detail.told})
+        command = _command(instruction, bound_runway, variation_deg)
+        if command is not None:
+            told = {name: value for detail in details if detail.to is instruction
+                    for name, value in detail.told.items()}  # fmt: skip
+            command = command.model_validate({**command.model_dump(), **told})
     except NotUnderstood as asks:
         return Order(instruction, question=str(asks))
     except pydantic.ValidationError:
         return Order(instruction, question="say again")
     if command is None:
-        return Order(instruction, unable=f"unable to {instruction.action.replace('_', ' ')}")
+        return Order(instruction, unable=_unable(instruction))
     return Order(instruction, command)
+
+
+def _is_broken(told: Instruction, call: Sequence[Instruction]) -> bool:
+    """Return whether an approach or a landing beside a level does not wait for its event."""
+    is_left = any(each.action in TO_FINAL and not each.is_conditional for each in call)
+    return told.action == "altitude" and is_left and is_event(told.until)
+
+
+def _unable(told: Instruction) -> str:
+    """Return the words about an instruction that nobody can carry out."""
+    if told.action == "speed" and told.named is not None:
+        return f"unable {told.named} speed, say speed in knots"
+    if told.action == "cross_fix":
+        return "unable to cross a fix at a speed"
+    return f"unable to {told.action.replace('_', ' ')}"
 
 
 def _once(
@@ -331,17 +482,14 @@ def _behind(instruction: Instruction, command: Command, whom: str, doing: str) -
 
 
 def _command(
-    instruction: Instruction,
-    bound_runway: str | None,
-    level_ft: float | None,
-    variation_deg: float,
+    instruction: Instruction, bound_runway: str | None, variation_deg: float
 ) -> Command | None:
     """Return the command of an instruction; None: there is none.
 
     `NotUnderstood` says what is missing.
     """
     return (
-        _at_runway(instruction, bound_runway, level_ft)
+        _at_runway(instruction, bound_runway)
         or _in_circuit(instruction, bound_runway)
         or _en_route(instruction)
         or _flown(instruction, variation_deg)
@@ -350,20 +498,17 @@ def _command(
     )
 
 
-def _at_runway(
-    told: Instruction, bound_runway: str | None, level_ft: float | None
-) -> Command | None:
+def _at_runway(told: Instruction, bound_runway: str | None) -> Command | None:
     """Return the command of an aircraft at a runway."""
-    climb = {} if level_ft is None else {"climb_to_ft": level_ft}
     match told.action:
         case "go_around" | "cancel_landing" | "missed_approach" | "cancel_approach":
-            return GoAroundCommand(action="go_around", **climb)
+            return GoAroundCommand(action="go_around")
         case "cancel_takeoff":
             return CancelTakeoffCommand(action="cancel_takeoff")
         case "line_up":
             return LineUpCommand(action="line_up", runway=_runway(told, bound_runway))
         case "cleared_for_takeoff":
-            return TakeOffCommand(action="take_off", runway=_runway(told, bound_runway), **climb)
+            return TakeOffCommand(action="take_off", runway=_runway(told, bound_runway))
         case "cleared_to_land":
             return LandCommand(action="land", runway=_runway(told, bound_runway))
         case "touch_and_go" | "cleared_option":
@@ -386,6 +531,10 @@ def _at_runway(
             return ApproachCommand(
                 action="approach", runway=_runway(told, bound_runway), kind="circling"
             )
+        case "continue_approach":  # To another runway than before.
+            return ApproachCommand(
+                action="approach", runway=told.runway or _runway(told, None), kind="circling"
+            )
         case "side_step":
             return SideStepCommand(action="side_step", runway=_runway(told, bound_runway))
     return None
@@ -404,6 +553,8 @@ def _in_circuit(told: Instruction, bound_runway: str | None) -> Command | None:
             return ExtendCommand(action="extend", leg=_leg(place or "downwind"))
         case "short_approach":
             return ShortApproachCommand(action="short_approach")
+        case "return_to_field" if told.runway is not None:
+            return ApproachCommand(action="approach", runway=told.runway, kind="visual")
         case "return_to_field":
             return ReturnToFieldCommand(action="return_to_field")
         case "orbit":
@@ -431,11 +582,12 @@ def _en_route(told: Instruction) -> Command | None:
             return ResumeSpeedCommand(action="resume_speed")
         case "vertical_rate" if told.rate_fpm is not None:
             return VerticalRateCommand(action="vertical_rate", vertical_rate_fpm=told.rate_fpm)
-        case "cross_fix" if told.altitude_ft is not None:
+        case "cross_fix" if told.altitude_ft is not None and told.speed_kt is None:
             return CrossFixCommand(
                 action="cross_fix",
                 fix=_fix(told),
                 altitude_ft=told.altitude_ft,
+                bound=told.bound,
             )
     return None
 

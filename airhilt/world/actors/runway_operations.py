@@ -29,6 +29,7 @@ from airhilt.world.actors.taxi_paths import (
 )
 from airhilt.world.actors.traffic import Traffic
 from airhilt.world.flight.aircraft import Aircraft
+from airhilt.world.flight.following import TrackPhase
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
 
@@ -135,6 +136,21 @@ class RunwayOperations:
             self._cleared = command.model_copy(update={"runway": runway})
 
         return take
+
+    def intercept(self, runway: str) -> None:
+        """Fly on as before, and join the final approach of a runway where the way leads to it."""
+        self.bind(runway)
+        self._next = self._land_once_on_final
+
+    def plan_without_clearance(self) -> Act:
+        """Return what goes on with the approach without the clearance to land."""
+        if self._cleared is None:
+            raise Unable("unable, not cleared to land")
+
+        def withdraw() -> None:
+            self._cleared = None
+
+        return withdraw
 
     def plan_leaving(self, command: LandCommand) -> Act:
         """Return what takes a landing clearance on the way to its runway."""
@@ -299,10 +315,16 @@ class RunwayOperations:
 
     # --- advisories ---------------------------------------------------------------------------
 
+    @property
+    def is_arriving(self) -> bool:
+        """True on an approach, and low on a recorded track."""
+        aircraft = self._aircraft
+        is_low = aircraft.state.height_agl_m < GO_AROUND_CLIMB_M
+        return aircraft.phase in APPROACHING or (aircraft.phase == TrackPhase.name and is_low)
+
     def go_around(self) -> bool:
         """Break off the approach; return whether there was one."""
-        aircraft = self._aircraft
-        if aircraft.phase not in APPROACHING or aircraft.on_ground:
+        if not self.is_arriving or self._aircraft.on_ground:
             return False
         self.break_off(self.usual_climb_m())
         return True

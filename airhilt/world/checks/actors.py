@@ -23,6 +23,7 @@ from airhilt.scenario.models import (
     AircraftSpec,
     AltitudeReached,
     BoundForAltitude,
+    OnTrack,
     Scenario,
     WildlifeSpec,
 )
@@ -31,6 +32,7 @@ from airhilt.units import FOOT, KNOT
 from airhilt.world.checks.walk import commands_of, models_of
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.guidance import GuidanceModes
+from airhilt.world.flight.track import points_of, track_problems
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
 
@@ -38,6 +40,9 @@ GREATEST_LATITUDE_DEG = 75.0
 """Highest latitude of a scene, in degrees; relative motion is exact enough up to there."""
 GREATEST_SURFACE_WIND_KT = 40.0
 """Highest wind at an airport, in kt: above the demonstrated crosswind of every type here."""
+
+FIELDS = {"time": 0, "position": 1, "altitude": 3}
+"""Places in a point of a track of the fields that a problem is about."""
 
 
 def unfit_actors(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
@@ -68,6 +73,8 @@ def _aircraft(
         yield from (Problem(f"{path}/aircraft", text) for text in error.problems)
         return
     initial, ground_ft = actor.initial, site.ground_m / FOOT
+    if isinstance(initial, OnTrack):
+        yield from _track(f"{path}/initial/points", initial, site)
     if not isinstance(initial, Airborne):
         return
     if initial.altitude_ft <= ground_ft:
@@ -92,6 +99,14 @@ def _aircraft(
             f"found {initial.cas_kt:g}; expected {slowest_kt:.4g} to {greatest_kt:.4g}, what a "
             f"{kind.name} flies at {flown_ft:g} ft",
         )
+
+
+def _track(path: str, track: OnTrack, site: ScenarioSite) -> Iterator[Problem]:
+    for index, point in enumerate(track.points):
+        if point[3] is not None and point[3] * FOOT <= site.ground_m:
+            yield _not_above_ground(f"{path}/{index}/3", point[3], site)
+    for problem in track_problems(points_of(track)):
+        yield Problem(f"{path}/{problem.number}/{FIELDS[problem.field]}", problem.text)
 
 
 def surface_wind(scenario: Scenario) -> Iterator[Problem]:

@@ -15,6 +15,7 @@ from airhilt.scenario.conversation import is_named_by, tunable_units
 from airhilt.scenario.models import AircraftSpec, FixPassed, InPhase, Scenario, VehicleSpec
 from airhilt.scenario.problems import Problem, unknown
 from airhilt.world.checks.walk import models_of
+from airhilt.world.flight.following import TrackPhase
 from airhilt.world.flight.procedures import en_route, landing, takeoff, taxi, visual
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.animal import AnimalPhase
@@ -27,7 +28,7 @@ FLIGHT_PHASES = (
         takeoff.TakeoffRoll, takeoff.Rotate, takeoff.ClimbOut, takeoff.RejectedTakeoff,
         takeoff.GoAround, landing.Glide, landing.Flare, landing.Rollout,
         en_route.EnRoute, en_route.EmergencyDescent, en_route.DriftDown,
-        visual.Approach, visual.Orbit,
+        visual.Approach, visual.Orbit, TrackPhase,
     )),
 )  # fmt: skip
 """Phases of an aircraft."""

@@ -8,6 +8,7 @@ from airhilt.shapes.aircraft.spec import AircraftDimensions
 from airhilt.world.flight.aircraft_type import AircraftType, Rates
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.control import FlightControl
+from airhilt.world.flight.following import TrackControl, TrackFollower
 from airhilt.world.flight.ground import GroundLaw
 from airhilt.world.flight.guard import FlightGuard
 from airhilt.world.flight.phases import AircraftSystems
@@ -15,6 +16,8 @@ from airhilt.world.flight.procedure_commands import ProcedureCommands
 from airhilt.world.flight.procedures.taxi import Standing
 from airhilt.world.flight.starting import Start
 from airhilt.world.flight.state import AircraftState, Atmosphere, InitialCondition, OnGround
+from airhilt.world.flight.track import TrackPoint
+from airhilt.world.mover import NOT_BEGUN, TRACK_ENDED
 
 NEAR_GROUND = Rates()
 """Rates of a flight that may touch the ground."""
@@ -24,11 +27,12 @@ the processor."""
 
 
 class Aircraft:
-    """One JSBSim aircraft under guidance.
+    """One JSBSim aircraft under guidance, or on a recorded track until a command takes it off.
 
     It begins standing on the ground, or in steady flight on its track, holding its altitude and its
     airspeed (or, with an initial vertical rate, climbing to its ceiling or descending to the ground
-    at that rate, until it gets an altitude). The air is there from the first instant.
+    at that rate, until it gets an altitude). The air is there from the first instant. On a recorded
+    track it is in the world from the first point to the last; JSBSim begins when it leaves it.
 
     Parameters
     ----------
@@ -54,7 +58,8 @@ class Aircraft:
         Commands that begin a taxi, a takeoff, an approach or an emergency procedure.
     ended : str or None
         Why the flight has ended: ``ground_contact``, ``state_not_finite``, or
-        ``envelope_exceeded:`` and what it exceeded. The state stays the last one before that.
+        ``envelope_exceeded:`` and what it exceeded. The state stays the last one before that. Of an
+        aircraft on a recorded track also `NOT_BEGUN` and `TRACK_ENDED`.
 
     Raises
     ------
@@ -67,7 +72,7 @@ class Aircraft:
     def __init__(
         self,
         kind: AircraftType,
-        initial: InitialCondition | OnGround,
+        initial: InitialCondition | OnGround | tuple[TrackPoint, ...],
         *,
         seed: int,
         atmosphere: Atmosphere,
@@ -78,31 +83,59 @@ class Aircraft:
     ) -> None:
         self.kind = kind
         self.ended: str | None = None
-        near_ground = may_land or isinstance(initial, OnGround)
+        self._seed, self._load, self._tick_s = seed, load, tick_s
+        self._terrain_elevation_m = terrain_elevation_m
+        self._may_land = may_land
+        self._flown: deque[tuple[AircraftState, str | None]] = deque()
+        self._guard = FlightGuard(kind)
+        self._failing: list[int] = []
+        self._follower: TrackFollower | None = None
+        self._airframe: Airframe | TrackFollower
+        if isinstance(initial, tuple):
+            self._follower = self._airframe = follower = TrackFollower(
+                kind, initial, atmosphere, terrain_elevation_m, tick_s
+            )
+            self.en_route: FlightControl = TrackControl(
+                kind, follower, self._leave_track, terrain_elevation_m
+            )
+            self.ended = None if follower.has_begun else NOT_BEGUN
+        else:
+            systems = self._begin(initial, atmosphere)
+            self.en_route = FlightControl(systems, initial, terrain_elevation_m)
+        self.state = self.en_route.state
+        self.procedures = ProcedureCommands(self.en_route)
+
+    def _begin(
+        self, initial: InitialCondition | OnGround, atmosphere: Atmosphere
+    ) -> AircraftSystems:
+        """Begin the flight dynamics; return the systems with which the phases fly."""
+        kind, tick_s = self.kind, self._tick_s
+        near_ground = self._may_land or isinstance(initial, OnGround)
         rates = NEAR_GROUND if near_ground else kind.rates
         self._row = 1 if near_ground else ROW_TICKS
         substeps = round(tick_s * rates.steps_hz)
         ticks = round(1.0 / (tick_s * rates.law_hz))
         self._substeps, self._ticks = range(substeps), range(ticks)
-        self._flown: deque[tuple[AircraftState, str | None]] = deque()
-        self._guard = FlightGuard(kind)
-        self._failing: list[int] = []
         self._airframe = airframe = Airframe(
             kind,
             step_s=tick_s / substeps,
-            seed=seed,
-            terrain_elevation_m=terrain_elevation_m,
-            load=load,
+            seed=self._seed,
+            terrain_elevation_m=self._terrain_elevation_m,
+            load=self._load,
         )
         period_s = ticks * tick_s
         start = Start(airframe, kind, period_s, ticks * substeps)
-        autopilot = start.begin(initial, atmosphere, terrain_elevation_m)
-        systems = AircraftSystems(
+        autopilot = start.begin(initial, atmosphere, self._terrain_elevation_m)
+        return AircraftSystems(
             kind, airframe, autopilot, GroundLaw(airframe, kind, period_s), period_s
         )
-        self.en_route = FlightControl(systems, initial, terrain_elevation_m)
-        self.state = self.en_route.state
-        self.procedures = ProcedureCommands(self.en_route)
+
+    def _leave_track(
+        self, initial: InitialCondition | OnGround, atmosphere: Atmosphere
+    ) -> AircraftSystems:
+        systems = self._begin(initial, atmosphere)
+        self._follower = None
+        return systems
 
     @property
     def phase(self) -> str:
@@ -130,8 +163,8 @@ class Aircraft:
         return self._airframe.flaps()
 
     @property
-    def fuel_kg(self) -> float:
-        """Mass of the fuel in its tanks, in kg."""
+    def fuel_kg(self) -> float | None:
+        """Mass of the fuel in its tanks, in kg; None on a recorded track."""
         return self._airframe.fuel_kg()
 
     @property
@@ -142,25 +175,45 @@ class Aircraft:
     @property
     def target_altitude_m(self) -> float:
         """Altitude that is flown to, or held, in m."""
+        if self._follower is not None:
+            return self._follower.level_m
         return self.en_route.guidance.vertical.clearance.altitude_m
 
     @property
     def target_vertical_rate_m_s(self) -> float:
         """Vertical rate commanded now, in m/s, positive up; 0 at the target altitude."""
+        if self._follower is not None:
+            return self.state.vertical_rate_m_s
         return self.en_route.guidance.vertical.vertical_rate(self.state)
 
     @property
     def target_speed_m_s(self) -> float:
         """Calibrated airspeed that is flown to, or held as far as the Mach limit allows, in m/s."""
+        if self._follower is not None:
+            return self.state.calibrated_airspeed_m_s
         return self.en_route.guidance.speed.target_m_s
 
     def advance(self) -> None:
         """Move on by one tick; do nothing once the flight has ended."""
+        if self._follower is not None:
+            self._follow(self._follower)
+            return
         if self.ended is not None:
             return
         if not self._flown:
             self._fly_row()
         self.state, self.ended = self._flown.popleft()
+
+    def _follow(self, follower: TrackFollower) -> None:
+        """Move on along the recorded track."""
+        if self.ended is not None and self.ended != NOT_BEGUN:
+            return
+        follower.advance()
+        self.state = self.en_route.state = follower.state
+        if follower.has_ended:
+            self.ended = TRACK_ENDED
+        elif follower.has_begun:
+            self.ended = None
 
     def _fly_row(self) -> None:
         """Fly a row of ticks, or until the flight ends."""
@@ -171,8 +224,8 @@ class Aircraft:
 
     def _fly(self) -> None:
         """Set the controls, and fly the ticks until they are set again."""
-        control, airframe = self.en_route, self._airframe
-        state = control.state
+        control = self.en_route
+        airframe, state = control.systems.airframe, control.state
         control.phase = phase = control.phase.fly(state)
         if isinstance(phase, Standing) and phase.at_rest:
             if state.ground_speed_m_s > 0.0:
@@ -203,7 +256,11 @@ class Aircraft:
         """Stop an engine, counted from 0, for good; the present phase goes on.
 
         It stops at the end of the next tick flown: JSBSim undoes what is set before the first. A
-        ValueError says that there is no such engine.
+        recorded track is left for it, on the ground when it next stands. A ValueError says that
+        there is no such engine.
         """
-        self._airframe.require_engine(engine)
+        if not self.on_ground:
+            self.en_route.leave_track()
+        if isinstance(self._airframe, Airframe):
+            self._airframe.require_engine(engine)
         self._failing.append(engine)

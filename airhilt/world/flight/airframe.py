@@ -244,7 +244,7 @@ class Airframe:
         fdm["ic/lat-geod-rad"] = initial.latitude_rad
         fdm["ic/long-gc-rad"] = initial.longitude_rad
         fdm["ic/h-sl-ft"] = initial.altitude_m / FOOT
-        fdm["ic/phi-rad"] = roll
+        fdm["ic/phi-rad"] = roll + initial.bank_rad
         fdm["ic/theta-rad"] = pitch
         fdm["ic/psi-true-rad"] = heading
         # In this order: a direction set on no wind is lost. It is where the wind blows to, whatever

@@ -43,11 +43,22 @@ class FlightControl:
         initial: InitialCondition | OnGround,
         terrain_elevation_m: float,
     ) -> None:
-        self.systems = systems
-        self.modes = modes = GuidanceModes(systems.kind)
-        self.state = systems.airframe.state()
+        self.kind = systems.kind
+        self.modes = GuidanceModes(systems.kind)
         self.phase: FlightPhase
         self._route: Route | None = None
+        self._begin(systems, initial, terrain_elevation_m)
+
+    def _begin(
+        self,
+        systems: AircraftSystems,
+        initial: InitialCondition | OnGround,
+        terrain_elevation_m: float,
+    ) -> None:
+        """Fly by the flight dynamics from where they begin."""
+        self.systems = systems
+        self.state = systems.airframe.state()
+        modes = self.modes
         if isinstance(initial, OnGround):
             self.guidance = self.climb_on(
                 modes.track(initial.heading_rad), modes.steepest_climb(self.state.altitude_m)
@@ -106,7 +117,7 @@ class FlightControl:
         The rate is positive, and at most the greatest of the type; by default the type's own.
         """
         if vertical_rate_m_s is None:
-            vertical_rate_m_s = self.systems.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
+            vertical_rate_m_s = self.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
         accepted = self.modes.accepted_clearance(
             altitude_m, vertical_rate_m_s, is_climb=altitude_m >= self.state.altitude_m
         )
@@ -144,6 +155,7 @@ class FlightControl:
 
     def commanded(self) -> EnRoute:
         """Return the modes that a command changes; end a procedure that they do not lead out of."""
+        self.leave_track()
         if not self.phase.commandable:
             self.require_airborne("an en-route command")
             modes, state = self.modes, self.state
@@ -152,9 +164,12 @@ class FlightControl:
                 self.systems,
                 modes.track(state.track_rad),
                 modes.altitude_at_usual_rate(state.altitude_m),
-                modes.airspeed(self.systems.kind.speeds.minimum_clean_kt * KNOT),
+                modes.airspeed(self.kind.speeds.minimum_clean_kt * KNOT),
             )
         return self.guidance
+
+    def leave_track(self) -> None:
+        """Fly on by the flight dynamics from a recorded track; no-op for all others."""
 
     def require_airborne(self, command: str) -> None:
         """Raise ValueError unless the aircraft is in the air."""

@@ -8,6 +8,8 @@ from airhilt.geodesy.wgs84 import Place
 from airhilt.units import KNOT
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.curves import Curve
+from airhilt.world.flight.following import TrackPhase
+from airhilt.world.flight.guidance import LateralMode
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final, require_side_step
 from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
@@ -52,9 +54,10 @@ class ProcedureCommands:
         control.require_on_ground("taxi", FASTEST_TAXI_M_S)
         if not path:
             raise ValueError("the path is empty; expected a place to taxi to")
-        ground, state = control.systems.kind.ground, control.state
+        ground, state = control.kind.ground, control.state
         speed = ground.taxi_speed_kt * KNOT if speed_m_s is None else speed_m_s
         here = (state.latitude_rad, state.longitude_rad)
+        control.leave_track()
         track = TaxiPath([here, *path], speed, ground.look_ahead_m)
         called: Way = "line_up" if then == "lined_up" else "taxi"
         control.phase = Taxi(control.systems, track, called, then)
@@ -91,9 +94,10 @@ class ProcedureCommands:
         """
         control = self._control
         control.require_on_ground("take_off", FASTEST_TAXI_M_S)
-        line = Final(runway, control.systems.kind)
+        line = Final(runway, control.kind)
         require_lined_up(control.state, line)
         control.require_climb(climb_to_m)
+        control.leave_track()
         after = line if track_rad is None else control.modes.track(track_rad)
         control.guidance = control.climb_on(after, control.modes.steepest_climb(climb_to_m))
         control.phase = TakeoffRoll(control.systems, line, control.guidance)
@@ -115,7 +119,7 @@ class ProcedureCommands:
         on the runway.
         """
         self._control.require_airborne("land")
-        final = Final(runway, self._control.systems.kind)
+        final = Final(runway, self._control.kind)
         final.require_reachable(self._control.state)
         self._approach(final, exit_path)
 
@@ -132,20 +136,26 @@ class ProcedureCommands:
         curve: Curve,
         altitude_m: float,
         exit_path: Sequence[Place] = (),
+        *,
+        keeps_level: bool = False,
     ) -> None:
         """Fly a curve that ends at the threshold of a runway, and land there.
 
-        The altitude is held until the glide path along the curve is below it.
+        The altitude is held until the glide path along the curve is below it, or with
+        ``keeps_level`` until the last line of the curve.
         """
         control = self._control
         control.require_airborne("approach")
+        control.leave_track()
         systems, modes = control.systems, control.modes
         final = Final(runway, systems.kind)
         path, level = modes.curve(curve), modes.altitude_at_usual_rate(altitude_m)
         preparation = self._preparation()
         if not preparation.is_configured:
             systems.airframe.clean_up()
-        control.phase = Approach(systems, final, exit_path, path, level, preparation)
+        control.phase = Approach(
+            systems, final, exit_path, path, level, preparation, keeps_level=keeps_level
+        )
         control.guidance = EnRoute(
             systems, path, level, modes.airspeed(systems.kind.speeds.approach_kt * KNOT)
         )
@@ -177,23 +187,31 @@ class ProcedureCommands:
         phase = self._control.phase
         if not isinstance(phase, Glide):
             raise ValueError(f"side_step in phase {phase.name}; expected glide")
-        require_side_step(self._control.state, Final(runway, self._control.systems.kind))
+        require_side_step(self._control.state, Final(runway, self._control.kind))
 
     def side_step(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
         """Leave the approach that is flown for that of another runway, with its exit path."""
         self.require_side_step(runway)
-        self._approach(Final(runway, self._control.systems.kind), exit_path)
+        self._approach(Final(runway, self._control.kind), exit_path)
 
     def go_around(self, climb_to_m: float) -> None:
-        """Break off the approach: climb on the runway's course to an altitude, and level off."""
+        """Break off the approach: climb on the runway's course to an altitude, and level off.
+
+        From a recorded track it climbs on its present track.
+        """
         control = self._control
         phase = control.phase
-        if not isinstance(phase, Approach | Orbit | Glide | Flare) or control.on_ground:
+        modes = control.modes
+        lateral: LateralMode | None = None
+        if isinstance(phase, TrackPhase):
+            lateral = modes.track(control.state.track_rad)
+        elif isinstance(phase, Approach | Orbit | Glide | Flare):
+            lateral = phase.final
+        if lateral is None or control.on_ground:
             raise ValueError(f"go_around in phase {phase.name}; expected glide or flare")
         control.require_climb(climb_to_m)
-        control.guidance = control.climb_on(
-            phase.final, control.modes.altitude_at_usual_rate(climb_to_m)
-        )
+        control.leave_track()
+        control.guidance = control.climb_on(lateral, modes.altitude_at_usual_rate(climb_to_m))
         control.phase = GoAround(
             control.systems, control.guidance, may_touch=isinstance(phase, Flare)
         )
@@ -217,6 +235,7 @@ class ProcedureCommands:
     def _approach(self, final: Final, exit_path: Sequence[Place]) -> None:
         """Fly the final approach, from the present altitude."""
         control = self._control
+        control.leave_track()
         systems, modes = control.systems, control.modes
         altitude_m, preparation = control.state.altitude_m, self._preparation()
         control.phase = Glide(systems, final, exit_path, altitude_m, preparation)
@@ -243,7 +262,7 @@ class ProcedureCommands:
         en_route = control.commanded()
         control.systems.airframe.clean_up()
         en_route.vertical = control.modes.steepest_descent(BELOW_ALL_TERRAIN_M)
-        drift_down_kt = control.systems.kind.speeds.drift_down_kt
+        drift_down_kt = control.kind.speeds.drift_down_kt
         en_route.speed = control.modes.airspeed(drift_down_kt * KNOT)
         control.phase = DriftDown(control.systems, en_route)
 

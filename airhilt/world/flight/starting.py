@@ -51,6 +51,8 @@ class Start:
         begin = self._trimmed if self.kind.start == "trim" else self._settled
         autopilot = begin(initial, heading)
         self.airframe.release(initial, atmosphere)
+        if initial.bank_rad:
+            autopilot.take_over(self.airframe.state())
         return autopilot
 
     def _on_ground(self, initial: OnGround, atmosphere: Atmosphere) -> Autopilot:

@@ -73,6 +73,7 @@ class InitialCondition:
     calibrated_airspeed_m_s: float
     vertical_rate_m_s: float = 0.0
     on_approach: bool = False
+    bank_rad: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

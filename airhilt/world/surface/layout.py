@@ -19,7 +19,7 @@ from shapely import LineString, Point
 
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.geodesy.wgs84 import Place, distance_and_azimuth
+from airhilt.geodesy.wgs84 import Place, distance_and_azimuth, distance_m
 from airhilt.host import library
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.surface import path as lines
@@ -55,6 +55,10 @@ CLEAR_OF_HOLD_M = 75.0
 it too."""
 POINT_STEP_M = 4.0
 """Greatest distance between the points of entries and exits, in m."""
+AT_STAND_M = 5.0
+"""Distance from a stand within which somebody is parked on it, in m."""
+ON_TAXIWAY_M = 15.0
+"""Distance from the centre line within which a place is on a taxiway, in m; assumed."""
 HALF_HOLD_LINE_M = 16.0
 """Half the length of a hold line, in m: it is drawn wider than its taxiway."""
 
@@ -316,6 +320,27 @@ class Layout:
     def stands(self) -> tuple[str, ...]:
         """Names of the nodes where aircraft and vehicles stand."""
         return tuple(node.name for node in self.airport.taxiways.nodes if node.kind == "stand")
+
+    def runway_at(self, here: Place) -> str | None:
+        """Return the runway in whose protected area a place is, in one direction."""
+        point = self.local_frame.to_local(here)
+        on = (strip for strip in self.strips.values() if strip.protects(point))
+        return next((strip.ends[0].ident for strip in on), None)
+
+    def stand_at(self, here: Place) -> str | None:
+        """Return the stand at which a place is."""
+        near = (name for name in self.stands if distance_m(self.node(name), here) < AT_STAND_M)
+        return next(near, None)
+
+    def taxiway_at(self, here: Place) -> str | None:
+        """Return the taxiway on which a place is."""
+        point = Point(self.local_frame.to_local(here))
+        away = (
+            (LineString(self.leg(edge)).distance(point), edge.taxiway)
+            for edge in self.airport.taxiways.edges
+        )
+        nearest_m, taxiway = min(away)
+        return taxiway if nearest_m < ON_TAXIWAY_M else None
 
     # --- shapes in local metres -----------------------------------------------------------
 

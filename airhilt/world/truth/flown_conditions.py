@@ -18,7 +18,7 @@ from airhilt.scenario.models import (
     SpeedAbove,
     TrackReached,
 )
-from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, seconds_to_ns
 from airhilt.world.mover import Mover
 from airhilt.world.site import ScenarioSite
 
@@ -34,6 +34,8 @@ OVER_M = 0.5 * NAUTICAL_MILE
 ABEAM_M = 3.0 * NAUTICAL_MILE
 LEFT_FOR_S = 10.0
 """Time in s after which an aircraft that moves away from an altitude has passed it before."""
+LEAST_RATE_M_S = 200.0 * FOOT_PER_MINUTE
+"""Least vertical rate of who climbs or descends, in m/s; level flight has less."""
 
 BodyTest = Callable[[Mover, int], bool]
 """Returns whether a body is as a condition says, at a time in ns."""
@@ -61,7 +63,7 @@ def flown(condition: FlownCondition, site: ScenarioSite) -> BodyTest:
             place = site.fix(fix)
             if place is None:
                 raise ScenarioError(f"there is no fix {fix}")
-            return lambda body, _: _has_passed(body.state, place)
+            return lambda body, _: has_passed(body.state, place)
 
 
 def _altitude(altitude_m: float) -> BodyTest:
@@ -70,7 +72,8 @@ def _altitude(altitude_m: float) -> BodyTest:
     def reached(body: Mover, now_ns: int) -> bool:
         nonlocal left_since_ns
         above_m = body.state.altitude_m - altitude_m
-        if above_m * body.state.vertical_rate_m_s <= 0.0:
+        away_m_s = math.copysign(1.0, above_m) * body.state.vertical_rate_m_s
+        if away_m_s < LEAST_RATE_M_S:
             left_since_ns = None
         elif left_since_ns is None:
             left_since_ns = now_ns
@@ -80,7 +83,8 @@ def _altitude(altitude_m: float) -> BodyTest:
     return reached
 
 
-def _has_passed(state: Kinematics, fix: Place) -> bool:
+def has_passed(state: Kinematics, fix: Place) -> bool:
+    """Return whether somebody is over a fix, or has it abeam."""
     here = (state.latitude_rad, state.longitude_rad)
     away_m = distance_m(here, fix)
     track_rad = math.atan2(state.velocity_east_m_s, state.velocity_north_m_s)

@@ -14,12 +14,19 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfilt
 
-from airhilt.assistant.asr.engines.whisper import MODEL_FILES, Whisper
-from airhilt.errors import SpeechError
+from airhilt.assistant.asr.engines.whisper import Whisper, WhisperSettings
+from airhilt.assistant.asr.whisper_models import MODEL_FILES
+from airhilt.engine_families import RECOGNISERS
+from airhilt.errors import AirhiltError, SpeechError
 from airhilt.voices.engines.espeak import Espeak
 from paths import DATA
+from tiny_models import write_looping_whisper
 
 MODEL = DATA / "tiny_whisper"
+UNGUARDED = WhisperSettings(
+    temperatures=(0.0,), compression_ratio_threshold=1e9, no_repeat_ngram_size=0
+)
+"""As Whisper is without what keeps it from loops."""
 INSTALLED = importlib.util.find_spec("faster_whisper") is not None
 
 
@@ -100,6 +107,36 @@ class TestWithFasterWhisper:
         with pytest.raises(SpeechError, match="takes 80 mel bands, and not the 128"):
             Whisper(str(folder))
 
-    def test_a_name_that_no_model_has_is_refused(self) -> None:
-        with pytest.raises(SpeechError, match="huge-and-perfect: does not load: ValueError"):
-            Whisper("huge-and-perfect")
+    def test_what_loops_is_rejected_and_not_told_as_sure(self, folder: Path) -> None:
+        write_looping_whisper(folder)
+        looped = Whisper(str(folder), UNGUARDED).recognise(call(), ["AAL123"])
+        rejected = Whisper(str(folder)).recognise(call(), ["AAL123"])
+        assert looped.text.count("tower") > 100
+        assert looped.confidence > 0.9
+        assert (rejected.text, rejected.words) == ("", ())
+        assert rejected.confidence < 0.1
+
+    def test_a_limit_on_repetition_makes_a_loop_short_and_still_seen(self, folder: Path) -> None:
+        write_looping_whisper(folder)
+        limited = WhisperSettings(temperatures=(0.0,))
+        unseen = limited.model_copy(update={"compression_ratio_threshold": 1e9})
+        words = Whisper(str(folder), unseen).recognise(call(), []).text.split()
+        assert 16 <= len(words) < 100
+        assert Whisper(str(folder), limited).recognise(call(), []).text == ""
+
+    def test_what_is_drawn_at_a_temperature_is_drawn_again_in_another_run(
+        self, folder: Path
+    ) -> None:
+        write_looping_whisper(folder)
+        drawing = UNGUARDED.model_copy(update={"temperatures": (1.0,)})
+        first, second = (Whisper(str(folder), drawing) for _ in range(2))
+        audio = call()
+        heard = [first.recognise(audio, []) for _ in range(2)]
+        assert heard[0] != heard[1]
+        assert heard == [second.recognise(audio, []) for _ in range(2)]
+
+    def test_its_settings_are_checked_by_name_and_limit(self) -> None:
+        made = RECOGNISERS.create(f"whisper:{MODEL}", {"beam_size": 1})
+        assert made.recognise(call(), []).text
+        with pytest.raises(AirhiltError, match="did you mean 'beam_size'"):
+            RECOGNISERS.create(f"whisper:{MODEL}", {"beam_sise": 1})

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
+
 import airhilt
 from airfield import NORTH, Airfield, Mover, lands
 from airhilt import Scenario
@@ -105,10 +107,11 @@ def test_an_alert_that_makes_no_advisory_costs_its_worker_and_not_the_run(
     encounter: Scenario, tmp_path: Path
 ) -> None:
     short = encounter.model_copy(update={"duration_s": 5.0})
-    result = airhilt.run(
-        short, out=tmp_path / "run", latency="fixed", speech=False, cameras=False,
-        workers=[DecisionWorker(Careless(), Template())],
-    )  # fmt: skip
+    with pytest.warns(RuntimeWarning, match="worker 'decision' failed"):
+        result = airhilt.run(
+            short, out=tmp_path / "run", latency="fixed", speech=False, cameras=False,
+            workers=[DecisionWorker(Careless(), Template())],
+        )  # fmt: skip
     assert result.summary.outcome == "finished"
     log = list(read_log(result.folder / "log.mcap"))
     lost = [Event.model_validate_json(m.data) for m in log if m.key == "truth/event"]

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
-from airhilt.assistant.decision.engines.http import HttpAssistant
+from airhilt.assistant.decision.engines.http import AssistantService, HttpAssistant
 from airhilt.assistant.decision.service_messages import AssistantRequest
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
@@ -76,7 +76,7 @@ def tell(engine: HttpAssistant, message: Any, t_s: float) -> Decision:
 
 
 def worker_of(url: str) -> DecisionWorker:
-    return DecisionWorker(HttpAssistant(url), Template())
+    return DecisionWorker(HttpAssistant(AssistantService(url)), Template())
 
 
 def advisories_of(worker: DecisionWorker, t_s: int) -> list[Advisory]:
@@ -125,7 +125,7 @@ def test_a_turn_says_whom_it_addresses_and_who_speaks() -> None:
     )
     answers = Scripted()
     with service(answers) as url:
-        engine = HttpAssistant(url)
+        engine = HttpAssistant(AssistantService(url))
         tell(engine, briefing, 1.0)
         tell(engine, transcript("American one two three, runway zero one, cleared to land"), 2.0)
         tell(
@@ -140,7 +140,7 @@ def test_it_is_asked_once_a_second_and_at_once_about_a_call() -> None:
     answers = Scripted()
     briefing = Briefing(controller="T", horizontal_separation_nm=3, vertical_separation_ft=1000)
     with service(answers) as url:
-        engine = HttpAssistant(url)
+        engine = HttpAssistant(AssistantService(url))
         tell(engine, briefing, 1.0)
         assert tell(engine, briefing, 1.25).again_ns == 2 * SECOND_NS
         assert len(answers.requests) == 1
@@ -163,7 +163,7 @@ def test_what_is_not_listed_any_more_is_over() -> None:
 def test_the_same_call_twice_and_old_calls_are_no_more_than_one() -> None:
     answers = Scripted()
     with service(answers) as url:
-        engine = HttpAssistant(url)
+        engine = HttpAssistant(AssistantService(url))
         tell(engine, transcript("first", "c-2", 5.0), 6.0)
         tell(engine, transcript("earlier", "c-1", 1.0), 7.0)
         tell(engine, transcript("second", "c-2", 5.0), 8.0)
@@ -184,7 +184,7 @@ def adsb(t_s: float, latitude_deg: float) -> AdsbReport:
 def test_what_cannot_be_right_is_left_out_and_the_advisory_says_so() -> None:
     answers = Scripted([], [ADVISORY])
     with service(answers) as url:
-        engine = HttpAssistant(url)
+        engine = HttpAssistant(AssistantService(url))
         tell(engine, adsb(1.0, 40.0), 1.0)
         decision = tell(engine, adsb(3.0, 41.0), 3.0)
     (track,) = answers.requests[1]["tracks"]
@@ -231,5 +231,5 @@ def test_a_service_that_fails_is_named(answer: Callable[..., None], words: str) 
 
 def test_an_address_with_a_password_is_refused_without_showing_it() -> None:
     with pytest.raises(WorkerError, match=r"http://127\.0\.0\.1:9000 contains a user") as raised:
-        HttpAssistant("http://me:secret@127.0.0.1:9000/advise")
+        AssistantService("http://me:secret@127.0.0.1:9000/advise")
     assert "secret" not in str(raised.value)

@@ -13,13 +13,15 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from airhilt.assistant.vision.detector import Found
+from airhilt.assistant.vision.detector import Found, Shot
 from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
 from airhilt.assistant.vision.refiner import Refiner
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.errors import VisionError
 from airhilt.imaging.boxes import overlap
 from airhilt.messages import Box
+
+SHOT = Shot("nose", 0)
 
 
 @pytest.fixture(scope="module")
@@ -94,10 +96,10 @@ def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
     picture, (left, top, right, bottom) = airliner
     rows, columns = picture.shape[:2]
     whole = Tile(0, 0, rows, columns)
-    assert detector.detect_in(picture, whole) == detector.detect(picture)
+    assert detector.detect_in(picture, whole, SHOT) == detector.detect(picture)
     row, column = (max(round(side) // 16 * 16 - 64, 0) for side in (top, left))
     window = Tile(row, column, 176, 240)
-    found = detector.detect_in(picture, window)[0]
+    found = detector.detect_in(picture, window, SHOT)[0]
     assert found.label == "airplane"
     assert overlap(found.box, (left, top, right, bottom)) > 0.5
     # The refiner has the whole picture, so what it sees of the body is no less.
@@ -110,10 +112,10 @@ def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
 
     with monkeypatch.context() as patch:
         patch.setattr(Refiner, "judge", note)
-        detector.detect_in(picture, window)
+        detector.detect_in(picture, window, SHOT)
     assert looked_at == [picture.shape]
     outside = Tile(0, 0, 96, 96)
-    assert all(one.label != "airplane" for one in detector.detect_in(picture, outside))
+    assert all(one.label != "airplane" for one in detector.detect_in(picture, outside, SHOT))
 
 
 def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner: Airliner) -> None:

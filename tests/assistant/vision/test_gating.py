@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,8 +15,10 @@ from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Sho
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.tiling import Tile, tiles_of
 from airhilt.imaging.boxes import area, moved, shared_area
+from airhilt.imaging.pinhole import Pinhole
 from airhilt.messages import Box
-from pictures import COLOURS, Blob, BlobDetector, background, with_blobs
+from airhilt.units import SECOND_NS
+from pictures import COLOURS, PERIOD_NS, Blob, BlobDetector, background, camera_view, with_blobs
 
 BIG = 1920, 1080
 
@@ -126,7 +129,7 @@ def test_who_writes_into_a_picture_afterwards_changes_nothing() -> None:
 class PartBlobDetector(BlobDetector):
     """Sees parts of pictures too."""
 
-    def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+    def detect_in(self, picture: Picture, part: Tile, shot: Shot) -> list[Found]:
         found = self.detect(part.of(picture))
         return [one._replace(box=moved(one.box, part.left, part.top)) for one in found]
 
@@ -158,7 +161,7 @@ def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
 
 def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
     class FarReaching(PartBlobDetector):
-        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
+        def detect_in(self, picture: Picture, part: Tile, shot: Shot) -> list[Found]:
             _, top, right, bottom = part.box
             inner = right - 30.0, top, right + 20.0, bottom
             outer = right - 20.0, top, right + 30.0, bottom
@@ -215,3 +218,73 @@ def test_windows_hold_changes_and_cut_nothing_that_was_there(
     for box in boxes:
         shared = [shared_area(box, window.box) for window in windows]
         assert max(shared, default=0.0) in (0.0, pytest.approx(area(box)))
+
+
+# --- cameras that move ------------------------------------------------------------------------
+
+WIDE = background(800, 360)
+LENS = Pinhole(camera_view())
+
+
+class Flight:
+    """A camera on an aircraft that turns; its pictures are parts of a wide one."""
+
+    def __init__(self) -> None:
+        self.detector = PartBlobDetector()
+        self._gate = Gate(self.detector)
+        self._expected: list[Box] = []
+
+    def look(self, at_s: float, left: int, blobs: Sequence[Blob] = ()) -> list[Found]:
+        """Look at a picture that begins at a column of the wide one."""
+        turn_deg = math.degrees(math.atan(left / LENS.focal_px))
+        view = camera_view(heading_deg=turn_deg, carrier="AAL123")
+        picture = with_blobs(WIDE[:, left : left + 640], blobs)
+        shot = Shot("nose", round(at_s * SECOND_NS), view=view)
+        found = self._gate.look(shot, picture, self._expected)
+        self._expected = [one.box for one in found]
+        return found
+
+
+def looks_of_flight(lefts: Sequence[int], period_s: float = 0.0625) -> list[tuple[int, int]]:
+    flight = Flight()
+    for number, left in enumerate(lefts):
+        flight.look(period_s * number, left)
+    return flight.detector.asked
+
+
+@pytest.mark.parametrize("step_px", [1, 9])
+def test_a_turn_that_the_header_tells_is_no_reason_for_a_look(step_px: int) -> None:
+    assert looks_of_flight(range(0, 16 * step_px, step_px)) == [(360, 640)]
+
+
+def test_all_that_changes_is_looked_at_once_a_second() -> None:
+    assert looks_of_flight(range(33)) == [(360, 640)] * 3
+    assert looks_of_flight([7] * 33) == [(360, 640)]
+
+
+def test_what_a_turn_does_not_explain_is_looked_at_a_few_times_a_second() -> None:
+    detector = PartBlobDetector()
+    gate = Gate(detector)
+    for number in range(16):
+        shot = Shot("nose", number * PERIOD_NS, view=camera_view(carrier="AAL123"))
+        gate.look(shot, background(seed=number))
+    assert detector.asked == [(360, 640)] * 6
+
+
+def test_what_appears_while_the_camera_turns_is_found_at_once_in_a_window() -> None:
+    flight = Flight()
+    assert not flight.look(0.0, 0)
+    assert places(flight.look(0.0625, 3, [("airplane", (300, 100, 330, 112))])) == {
+        ("airplane", (300.0, 100.0, 330.0, 112.0))
+    }
+    rows, columns = flight.detector.asked[-1]
+    assert rows * columns < 0.15 * 640 * 360
+
+
+def test_what_is_followed_is_looked_at_in_each_picture_though_it_moves_little() -> None:
+    flight = Flight()
+    boxes = [(300 + step, 100, 330 + step, 112) for step in range(8)]
+    for step, box in enumerate(boxes):
+        found = flight.look(0.0625 * step, 2 * step, [("airplane", box)])
+        assert places(found) == {("airplane", tuple(map(float, box)))}
+    assert flight.detector.asked.count((360, 640)) == 1

@@ -36,9 +36,9 @@ class Counting:
         self.asked = 0
 
     def detect(self, picture: Picture) -> Sequence[Found]:
-        return self.detect_in(picture, Tile(0, 0, *picture.shape[:2]))
+        return self.detect_in(picture, Tile(0, 0, *picture.shape[:2]), Shot("", 0))
 
-    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+    def detect_in(self, picture: Picture, part: Tile, shot: Shot) -> Sequence[Found]:
         self.asked += 1
         pixels = part.of(picture).sum(axis=2)
         row, column = np.unravel_index(pixels.argmax(), pixels.shape)

@@ -10,11 +10,11 @@ import pytest
 
 from airhilt import load
 from airhilt.scenario import Scenario
+from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.raycasting import MISS
 from airhilt.sensors.cameras.renderers import FAMILY
-from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene.builder import open_scene_renderer
 from airhilt.shapes.mesh import box
 from airhilt.units import SECOND_NS

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Iterator
 from contextlib import closing
@@ -13,7 +14,6 @@ from airhilt.errors import RendererError
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.mounts import cameras_named
 from airhilt.sensors.cameras.renderer_process import (
-    MOST_PROCESSES,
     RendererProcess,
     processes_for,
     shared_out,
@@ -52,15 +52,22 @@ def test_each_camera_has_one_process_and_moving_ones_are_shared_out_evenly(
     assert max(counts) - min(counts) <= 1
 
 
-def test_half_of_the_cores_draw_and_not_more_than_cameras_move(
-    scenario: Scenario, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("cores", "moving", "processes"),
+    [(1, 4, 1), (2, 0, 1), (2, 2, 1), (2, 4, 2), (4, 2, 2), (4, 4, 2), (8, 4, 4), (64, 40, 4)],
+)
+def test_a_process_is_worth_two_cameras_that_move_or_one_with_cores_to_spare(
+    scenario: Scenario,
+    monkeypatch: pytest.MonkeyPatch,
+    cores: int,
+    moving: int,
+    processes: int,
 ) -> None:
-    moving = sum(camera.carrier is not None for camera in scenario.cameras)
-    for cores in (1, 2, 4, 64):
-        monkeypatch.setattr(os, "sched_getaffinity", lambda _, cores=cores: range(cores))
-        assert processes_for(scenario) == max(min(cores // 2, moving, MOST_PROCESSES), 1)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(cores))
     fixed = [camera for camera in scenario.cameras if camera.carrier is None]
-    assert processes_for(scenario.model_copy(update={"cameras": fixed})) == 1
+    carried = [camera for camera in scenario.cameras if camera.carrier is not None]
+    cameras = [*fixed, *itertools.islice(itertools.cycle(carried), moving)]
+    assert processes_for(scenario.model_copy(update={"cameras": cameras})) == processes
 
 
 @pytest.mark.slow

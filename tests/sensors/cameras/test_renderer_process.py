@@ -156,6 +156,14 @@ def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
     probe("embree")
 
 
+def test_a_process_that_draws_does_without_crews_and_phraseology() -> None:
+    code = (
+        f"import sys, {renderer_process.MODULE}; "
+        "sys.exit(bool({'airhilt.world.actors', 'airhilt.phraseology'} & set(sys.modules)))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
 def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.MonkeyPatch) -> None:
     """A fixed camera's first picture has 3 x 3 samples in each pixel, or more."""
     waited = []

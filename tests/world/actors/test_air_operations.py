@@ -88,7 +88,7 @@ class Flight:
 
 
 def crew_in(aircraft: Aircraft) -> Flight:
-    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL1", pilot=Reactions())
+    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL1", initial=None, pilot=Reactions())
     return Flight(Crew(spec, aircraft, kdca(), 1), aircraft, [])
 
 
@@ -471,6 +471,80 @@ def test_a_level_is_reached_at_the_fix_or_refused() -> None:
     lam = kdca().place(LAM)
     flight.fly(300.0, lambda _: distance_m(flight.here, lam) < 0.3 * NAUTICAL_MILE)
     assert flight.aircraft.state.altitude_m == pytest.approx(4_000 * FOOT, abs=50.0)
+
+
+@pytest.mark.parametrize(
+    ("bound", "told_ft", "over_ft", "then_ft"),
+    [
+        ("or_more", 4_000.0, 6_000.0, 4_000.0),
+        (None, 4_000.0, 6_000.0, 4_000.0),
+        (None, None, 6_000.0, 6_000.0),
+        ("or_more", None, 8_000.0, 8_000.0),
+        ("or_less", None, 6_000.0, 6_000.0),
+        ("or_less", 4_000.0, None, 4_000.0),
+    ],
+)
+def test_beyond_a_fix_it_goes_on_to_the_level_that_was_told(
+    bound: str | None, told_ft: float | None, over_ft: float | None, then_ft: float
+) -> None:
+    flight = told(en_route("737", before_nm=16.0, altitude_ft=8_000.0), "direct", to="LAM")
+    if told_ft is not None:
+        told(flight, "altitude", altitude_ft=told_ft)
+    told(flight, "cross_fix", fix="LAM", altitude_ft=6_000.0, bound=bound)
+    lam = kdca().place(LAM)
+    flight.fly(400.0, lambda _: distance_m(flight.here, lam) < 0.4 * NAUTICAL_MILE)
+    over_m = flight.aircraft.state.altitude_m
+    assert over_m < 6_050 * FOOT if over_ft is None else abs(over_m - over_ft * FOOT) < 50.0
+    flight.fly(120.0)
+    assert flight.aircraft.state.altitude_m == pytest.approx(then_ft * FOOT, abs=30.0)
+
+
+@pytest.mark.parametrize("action", ["approach", "land", "join"])
+def test_a_level_with_an_approach_is_kept_until_the_final_approach(action: str) -> None:
+    leg = {"leg": "final"} if action == "join" else {}
+    flight = en_route("737", before_nm=14.0, right_m=-3_000.0, altitude_ft=3_000.0)
+    assert flight.tell(action, runway="01", level_ft=8_000.0, **leg).startswith("unable 8000 ft")
+    told(flight, "altitude", altitude_ft=2_000.0)
+    told(flight, action, runway="01", level_ft=2_000.0, **leg)
+    lowest_m = math.inf
+
+    def note(aircraft: Aircraft) -> bool:
+        nonlocal lowest_m
+        lowest_m = min(lowest_m, aircraft.state.altitude_m)
+        final = FinalApproach(kdca().airport, kdca().runway("01"))
+        return abs(final.right_m(flight.here)) < 60.0
+
+    flight.fly(600.0, note)
+    assert lowest_m == pytest.approx(2_000 * FOOT, abs=30.0)
+
+
+def test_a_heading_to_the_final_course_is_flown_until_it_is_met() -> None:
+    flight = en_route("737", before_nm=14.0, right_m=-4_000.0, altitude_ft=2_000.0, turned_deg=30.0)
+    track_rad = flight.aircraft.state.track_rad
+    told(flight, "approach", runway="01", level_ft=2_000.0).fly(60.0)
+    assert flight.aircraft.state.track_rad == pytest.approx(track_rad, abs=0.02)
+    told(flight, "land", runway="01").lands_on("01")
+
+
+def test_on_the_approach_another_level_is_refused() -> None:
+    for phase in ("approach", "orbit", "glide", "short_final"):
+        why = PHASES[phase]("737").tell("altitude", altitude_ft=3_000.0)
+        assert why == "unable, on the approach"
+
+
+def test_without_its_clearance_it_goes_on_with_the_approach_and_goes_around_at_its_minimum() -> (
+    None
+):
+    flight = told(told(on_final("737", 2.5), "land", runway="01"), "cancel_landing").fly(5.0)
+    assert flight.aircraft.phase == "glide"
+    flight.fly_to("go_around")
+    assert flight.said == ["unable, no clearance to land: going around"]
+    assert on_final("737", 4.0).tell("cancel_landing") == "unable, not cleared to land"
+
+
+def test_a_side_step_to_the_other_end_is_refused() -> None:
+    why = on_final("737", 5.0).tell("side_step", runway="19")
+    assert why == "unable, runway 19 is no side step from 01"
 
 
 def test_another_heading_ends_an_approach_and_its_clearance() -> None:

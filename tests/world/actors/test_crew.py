@@ -64,7 +64,11 @@ def crew_of(
     reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
     spec = cast(Any, AircraftSpec).model_construct(
-        callsign="AAL123", icao24="a1b2c3", pilot=reactions, transponder=Transponder(**transponder)
+        callsign="AAL123",
+        icao24="a1b2c3",
+        initial=None,
+        pilot=reactions,
+        transponder=Transponder(**transponder),
     )
     return Crew(spec, aircraft, ScenarioSite(centre, 0.0), seed)
 
@@ -374,7 +378,9 @@ def test_a_crew_climbs_as_high_as_it_can_for_an_advisory(aircraft: Aircraft) -> 
 
 def test_who_descends_in_place_of_climbing_stays_above_the_ground(aircraft: Aircraft) -> None:
     wrong = Channels(assistant=Responses(median_s=1.0, opposite=1.0))
-    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL123", pilot=Reactions())
+    spec = cast(Any, AircraftSpec).model_construct(
+        callsign="AAL123", initial=None, pilot=Reactions()
+    )
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
     for ground_ft, level in ((0.0, 4_400.0), (4_200.0, 4_700.0)):
         aircraft.en_route.hold_altitude(5_000 * FOOT)
@@ -388,7 +394,9 @@ def test_who_descends_in_place_of_climbing_stays_above_the_ground(aircraft: Airc
 
 def test_the_ground_below_counts(aircraft: Aircraft) -> None:
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL123", pilot=Reactions())
+    spec = cast(Any, AircraftSpec).model_construct(
+        callsign="AAL123", initial=None, pilot=Reactions()
+    )
     crew = Crew(spec, aircraft, ScenarioSite(centre, 3_000 * FOOT), 1)
     with pytest.raises(Unable, match="3500 to 13000 ft here"):
         crew.command(AltitudeCommand(action="altitude", altitude_ft=3_400))

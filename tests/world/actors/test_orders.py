@@ -232,6 +232,21 @@ SAID: list[tuple[str, list[dict[str, Any] | None]]] = [
      [{"action": "follow", "hold_short": ("04",)}, None]),
     ("turn base now", [{"action": "join", "leg": "base", "side": None}]),
     ("cleared direct Lima Alpha Mike", [{"action": "direct", "to": "LAM"}]),
+    ("cleared to land runway three three, make left base",
+     [{"action": "land", "runway": "33"}, {"action": "join", "leg": "base", "runway": "33"}]),
+    ("make left base, cleared to land runway three three",
+     [{"action": "join", "leg": "base", "runway": "33"}, {"action": "land", "runway": "33"}]),
+    ("cleared touch and go, make left traffic runway three three",
+     [{"action": "land", "runway": "01"}, {"action": "join", "runway": "33"}]),
+    ("continue approach", [None]),
+    ("continue approach runway one", [None]),
+    ("continue approach runway four", [{"action": "approach", "runway": "04"}]),
+    ("cancel landing clearance, continue approach", [{"action": "cancel_landing"}, None]),
+    ("cancel landing clearance", [{"action": "go_around"}]),
+    ("cleared ILS runway one approach, maintain two thousand until established",
+     [{"action": "approach", "level_ft": 2000.0}, {"action": "altitude", "altitude_ft": 2000.0}]),
+    ("cross LAM at or above six thousand",
+     [{"action": "cross_fix", "altitude_ft": 6000.0, "bound": "or_more"}]),
     ("take off immediately or vacate runway", [{"action": "take_off"}, {"action": "vacate"}]),
 ]  # fmt: skip
 """Words to an aircraft that is going to use runway 01, and the commands of their instructions."""
@@ -247,3 +262,70 @@ def test_the_words_of_a_call_are_these_orders(
     for each, command in zip(made, commands, strict=True):
         if each is not None and command is not None:
             assert each.model_dump().items() >= command.items()
+
+
+def orders_in(words: str) -> list[Any]:
+    """Return the orders of a call to an aircraft that is going to use runway 01."""
+    call = parse_call(f"American one two three, {words}", ["AAL123"])
+    return list(orders_of(call.instructions, "01", 0.0, "AAL123"))
+
+
+@pytest.mark.parametrize(
+    ("words", "actions"),
+    [
+        ("exit at Bravo, cancel takeoff clearance", ["cancel_takeoff", "vacate"]),
+        ("cleared ILS runway one approach, maintain two thousand", ["altitude", "approach"]),
+        ("cleared ILS runway one approach, fly heading three three zero", ["track", "approach"]),
+        ("cross LAM at six thousand, descend and maintain four thousand",
+         ["altitude", "cross_fix"]),
+        ("reduce speed to one eight zero, cleared ILS runway one approach", ["approach", "speed"]),
+        ("fly heading two seven zero, go around", ["go_around", "track"]),
+        ("hold position, hold short of runway four", ["hold_short", "hold_position"]),
+    ],
+)  # fmt: skip
+def test_in_either_order_of_words_nothing_undoes_what_is_said_beside_it(
+    words: str, actions: list[str]
+) -> None:
+    turned = ", ".join(reversed(words.split(", ")))
+    for said in (words, turned):
+        does = [each for each in orders_in(said) if each.command is not None]
+        assert [each.command.action for each in sorted(does, key=lambda o: o.rank)] == actions
+
+
+@pytest.mark.parametrize(
+    ("words", "waits"),
+    [
+        ("fly heading three three zero, cleared ILS runway one approach", "track_reached"),
+        ("proceed direct LAM, cleared ILS runway one approach", "fix_passed"),
+        ("cleared to land, then taxi to the ramp", "off_runways"),
+        ("exit at Echo, taxi to the ramp", "off_runways"),
+    ],
+)
+def test_what_follows_from_something_in_the_call_waits_for_it(words: str, waits: str) -> None:
+    _, last = orders_in(words)
+    assert last.when is not None
+    assert last.when.type == waits
+
+
+def test_a_stop_beside_a_clearance_can_be_done_alone_and_a_crossing_cannot() -> None:
+    stop, follow = orders_in("hold short of Juliett, follow the Cessna")
+    assert stop.part_of is follow.instruction
+    assert stop.alone.action == "hold_short"
+    taxi, cross = orders_in("taxi to runway one via Kilo, cross runway four")
+    assert cross.part_of is taxi.instruction
+    assert cross.alone is None
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        ("not below one thousand until the shoreline, cleared to land",
+         "unable to keep a level until the shoreline"),
+        ("reduce to minimum approach speed", "unable minimum approach speed, say speed in knots"),
+        ("cleared ILS runway one approach, hold at LAM", "unable approach, told to hold"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_kept_beside_the_rest_is_refused_with_its_reason(
+    words: str, reason: str
+) -> None:
+    assert [each.unable for each in orders_in(words) if each.unable] == [reason]

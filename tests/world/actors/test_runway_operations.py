@@ -105,7 +105,12 @@ class Plane:
         raise ValueError(f"side_step to runway {runway.ident}; expected a parallel one")
 
     def approach(
-        self, runway: RunwayEnd, curve: object, altitude_m: float, exit_path: object
+        self,
+        runway: RunwayEnd,
+        curve: object,
+        altitude_m: float,
+        exit_path: object,
+        **_: object,
     ) -> None:
         self._tell("approach", runway.ident)
         self.phase = "approach"

@@ -43,7 +43,7 @@ def test_the_main_wheels_are_on_the_ground_while_the_nose_is_lifted(name: str) -
 
 def test_cleaned_up_it_has_gear_flaps_and_speed_brakes_in() -> None:
     aircraft = on_final("737", distance_nm=8.0)
-    airframe: Airframe = aircraft._airframe
+    airframe: Airframe = aircraft.en_route.systems.airframe
     airframe.set_speed_brakes(1.0)
     aircraft.advance()
     assert (aircraft.gear, aircraft.flaps) != (0.0, 0.0)
@@ -68,7 +68,7 @@ def wind_of(airframe: Airframe) -> list[float]:
 
 
 def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it() -> None:
-    airframe: Airframe = on_the_ground("737", atmosphere=WINDY)._airframe
+    airframe: Airframe = on_the_ground("737", atmosphere=WINDY).en_route.systems.airframe
     whole = [6.3, -4.1, 2.7]
     assert wind_of(airframe) == [0.0, 0.0, 0.0]
     for speed_m_s, part in ((3.0, 0.2), (7.5, 0.5), (15.0, 1.0), (60.0, 1.0), (0.0, 0.0)):
@@ -78,7 +78,7 @@ def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it() -> 
 
 def test_an_aircraft_in_flight_has_the_whole_wind_from_the_beginning() -> None:
     aircraft = in_cruise("737", atmosphere=Atmosphere(wind_north_m_s=20.0, wind_east_m_s=-12.0))
-    assert wind_of(aircraft._airframe)[:2] == pytest.approx([20.0, -12.0], abs=1e-6)
+    assert wind_of(aircraft.en_route.systems.airframe)[:2] == pytest.approx([20.0, -12.0], abs=1e-6)
     state = aircraft.state
     heading = state.heading_rad
     airspeed = state.true_airspeed_m_s
@@ -119,12 +119,12 @@ def test_a_wind_across_that_is_stronger_than_the_airspeed_is_refused(
 
 
 def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel() -> None:
-    standing: Airframe = on_the_ground("737")._airframe
+    standing: Airframe = on_the_ground("737").en_route.systems.airframe
     assert standing.on_ground()
     assert standing.nose_on_ground()
     assert standing.gear() == 1.0
     assert standing.flaps() == pytest.approx(load_aircraft_type("737").takeoff.flaps, abs=0.01)
-    flying: Airframe = in_cruise("737")._airframe
+    flying: Airframe = in_cruise("737").en_route.systems.airframe
     assert not flying.on_ground()
     assert not flying.nose_on_ground()
     assert (flying.gear(), flying.flaps()) == (0.0, 0.0)

@@ -395,8 +395,14 @@ def test_an_aircraft_reaches_or_passes_something(condition: Any, holds_after_s: 
     assert held.index(True) == pytest.approx(holds_after_s, abs=2)
 
 
-def test_a_level_aircraft_has_not_passed_the_altitude_to_which_it_will_climb() -> None:
-    case = Case({"type": "altitude_reached", "actor": "AA", "altitude_ft": 36_000.0})
+@pytest.mark.parametrize(
+    ("altitude_ft", "wanders_fpm"), [(36_000.0, -30.0), (36_000.0, 30.0), (3_000.0, 30.0)]
+)
+def test_a_level_aircraft_has_not_passed_another_altitude(
+    altitude_ft: float, wanders_fpm: float
+) -> None:
+    level = Straight(8_000.0, rate_fpm=wanders_fpm)
+    case = Case({"type": "altitude_reached", "actor": "AA", "altitude_ft": altitude_ft}, level)
     assert not any(case.after(1.0) for _ in range(60))
 
 

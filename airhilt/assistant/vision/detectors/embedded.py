@@ -17,7 +17,7 @@ import numpy as np
 import onnxruntime
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, once
+from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, Shot, once
 from airhilt.assistant.vision.refiner import Refiner, RefinerCard
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
@@ -130,24 +130,30 @@ class EmbeddedDetector:
         if card.refiner is not None:
             self._files.append(file.with_name(card.refiner.file))
             self._refiner = Refiner(card.refiner, file.parent, card.classes, threads)
+        self._least_score = 0.0 if card.refiner is None else card.refiner.least_score
 
     @property
     def identity(self) -> Sequence[str]:
-        """SHA-256 of the files, the threshold, and the version of the library."""
-        library = f"onnxruntime {onnxruntime.__version__}"
+        """SHA-256 of the files, the threshold, and the library: its version and providers."""
+        library = f"onnxruntime {onnxruntime.__version__} {' '.join(self._network.get_providers())}"
         return (*(sha256(file) for file in self._files), repr(self._threshold), library)
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture; see `Detector.detect`."""
-        return self._told(picture, self.proposed(picture))
+        return self._told(picture, self.proposed(picture, self._least_score))
 
-    def detect_in(self, picture: Picture, part: Tile) -> Sequence[Found]:
+    def detect_in(
+        self,
+        picture: Picture,
+        part: Tile,
+        shot: Shot,  # noqa: ARG002
+    ) -> Sequence[Found]:
         """Return what is in a part of a picture; see `airhilt.assistant.vision.gating.SeesParts`.
 
         The first network was trained on tiles of 96 to 288 pixels. The refiner has the whole
         picture.
         """
-        proposed = self.proposed(part.of(picture))
+        proposed = self.proposed(part.of(picture), self._least_score)
         moved_to_part = [one._replace(box=moved(one.box, part.left, part.top)) for one in proposed]
         return self._told(picture, moved_to_part)
 
@@ -177,13 +183,14 @@ class EmbeddedDetector:
         inside = [one._replace(box=within(one.box, columns, rows)) for one in judged]
         return [one for one in inside if area(one.box) > 0.0]
 
-    def proposed(self, picture: Picture) -> list[Found]:
-        """Return all findings of the first network, the highest scores first."""
+    def proposed(self, picture: Picture, least_score: float = 0.0) -> list[Found]:
+        """Return the findings of the first network from a score on, the highest scores first."""
         rows, columns = picture.shape[:2]
         try:
             found = self._network.run(["found"], {"picture": _padded(picture)[None]})[0][0]
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
+        found = found[found[:, 4] >= least_score]
         boxes = [within(tuple(box), columns, rows) for box in found[:, :4].tolist()]
         proposed = [
             Found(self._card.classes[int(number)], score, box)

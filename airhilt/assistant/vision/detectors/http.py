@@ -16,6 +16,7 @@ from airhilt.assistant.vision.service_messages import (
     FoundObject,
     PictureRequest,
 )
+from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
 from airhilt.errors import VisionError
 from airhilt.host.service_headers import ServiceHeaders
@@ -47,12 +48,18 @@ class HttpDetector:
     A path that ends with `JSON_PATH` gets a `PictureRequest`, any other a PNG, 8-bit sRGB, with the
     same in `ServiceHeaders`. The answer is a `DetectionAnswer`, boxes in pixels: left, top, right,
     bottom.
+
+    Attributes
+    ----------
+    looks_at_windows
+        True if the last answer says that the service looks at windows of pictures.
     """
 
     name = "http"
-    threshold = 0.0
 
     def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
+        self.threshold = 0.0
+        self.looks_at_windows = False
         key = key_of(KEY_VARIABLE, "detector http", VisionError)
         self._service = HttpService(
             "detector http", url, timeout_s, MAXIMUM_BYTES, VisionError, key
@@ -65,6 +72,19 @@ class HttpDetector:
 
     def detect_shot(self, picture: Picture, shot: Shot) -> Sequence[Found]:
         """Return what the service finds in a picture, and tell it where that comes from."""
+        return self._found(picture, shot)
+
+    def probe(self) -> None:
+        """Let it look at a black picture.
+
+        Raises
+        ------
+        VisionError
+            There is no service, or its answer is none.
+        """
+        self.detect(PROBE)
+
+    def _found(self, picture: Picture, shot: Shot, window: Tile | None = None) -> Sequence[Found]:
         png, own = encode_png(picture), shot.own_aircraft
         mask = None if own is None or not own.any() else base64.b64encode(encode_png(own)).decode()
         ts_ms = shot.t_frame_ns // MILLISECOND_NS
@@ -76,6 +96,7 @@ class HttpDetector:
                 camera_id=shot.camera,
                 offset_px=(shot.left, shot.top),
                 ego_mask=mask,
+                window_px=None if window is None else window.box,
             )
             body, content_type = request.model_dump_json().encode(), "application/json"
         else:
@@ -86,17 +107,9 @@ class HttpDetector:
             data = self._service.post(body, content_type, headers.encoded())
             answer = self._service.parsed(data, DetectionAnswer, EXPECTED)
             placed = [self._placed(each, picture) for each in answer.detections]
+        self.threshold = answer.threshold
+        self.looks_at_windows = self._takes_json and answer.looks_at_windows
         return [found for found in placed if area(found.box)]
-
-    def probe(self) -> None:
-        """Let it look at a black picture.
-
-        Raises
-        ------
-        VisionError
-            There is no service, or its answer is none.
-        """
-        self.detect(PROBE)
 
     def _placed(self, each: FoundObject, picture: Picture) -> Found:
         rows, columns = picture.shape[:2]
@@ -110,6 +123,31 @@ class HttpDetector:
         return Found(each.label, each.confidence, box)
 
 
+class HttpPartsDetector(HttpDetector):
+    """Asks a service that looks at windows of pictures."""
+
+    def detect_in(self, picture: Picture, part: Tile, shot: Shot) -> Sequence[Found]:
+        """Return what the service finds in a part; see `airhilt.assistant.vision.gating`."""
+        return self._found(picture, shot, part)
+
+
+def detector_at(url: str) -> HttpDetector:
+    """Return the detector that asks a service for what it can.
+
+    Raises
+    ------
+    VisionError
+        There is no service, or its answer is none.
+    """
+    asked = HttpDetector(url)
+    asked.probe()
+    if not asked.looks_at_windows:
+        return asked
+    detector = HttpPartsDetector(url)
+    detector.threshold = asked.threshold
+    return detector
+
+
 def encode_png(picture: Picture | Mask) -> bytes:
     """Return a picture, or a mask in black and white, as PNG."""
     png = io.BytesIO()
@@ -120,9 +158,8 @@ def encode_png(picture: Picture | Mask) -> bytes:
 ENGINE = Engine(
     name="http",
     summary="service that takes PNG or JSON and answers JSON",
-    create=HttpDetector,
+    create=detector_at,
     takes=is_service,
     usage=USAGE,
     is_remote=True,
-    probe=lambda url: HttpDetector(url).probe(),
 )

@@ -26,11 +26,11 @@ from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Daylight, Weather
 from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.dataset.placement import cast
 from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, station_of
 from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene.builder import light_of, open_scene_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
@@ -39,6 +39,7 @@ from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, seconds_to_ns
 from airhilt.world.actors import build_actors
 from airhilt.world.loading import draw
+from airhilt.world.mover import goes_on
 from airhilt.world.site import ScenarioSite
 
 FIRST_CLASSES: tuple[VisibleClass, ...] = ("airplane", "truck", "bird", "deer", "coyote")
@@ -196,7 +197,7 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
             due = ticks * index // instants
             for _ in range(due - tick):
                 for actor in actors:
-                    if actor.body.ended is None:
+                    if goes_on(actor.body):
                         actor.body.advance()
             tick = due
             t_ns = seconds_to_ns(tick * TICK_S)

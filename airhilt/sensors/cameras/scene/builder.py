@@ -46,10 +46,12 @@ def air_and_sun(
     return Illumination(sun, visibility, overcast, background)
 
 
-def landscape_of(scenario: Scenario, site: ScenarioSite, light: Illumination) -> Landscape:
-    """Return the landscape of a scenario."""
+def landscape_of(
+    scenario: Scenario, site: ScenarioSite, light: Illumination, is_kept: bool = False
+) -> Landscape:
+    """Return the landscape of a scenario; that of an airport from the cache if it is kept there."""
     if site.layout is not None:
-        return airport_landscape(site.layout, light)
+        return airport_landscape(site.layout, light, is_kept)
     heights = [
         actor.initial.altitude_ft * FOOT - site.ground_m
         for actor in scenario.actors
@@ -86,7 +88,7 @@ def open_scene_renderer(
     wanted = [camera.name for camera in scenario.cameras] if names is None else names
     cameras: list[Camera] = [find_camera(known, name) for name in wanted]
     light = light_of(scenario, site)
-    landscape = landscape_of(scenario, site, light)
+    landscape = landscape_of(scenario, site, light, keeps_backgrounds)
     return SceneRenderer(
         landscape, light, models, cameras, renderer, scenario.weather.rain_mm_h, supersampling,
         keeps_backgrounds, shares_pictures,

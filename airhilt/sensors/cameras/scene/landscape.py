@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -19,8 +19,10 @@ from airhilt.sensors.cameras.scene import markings, scenery
 from airhilt.sensors.cameras.scene.ground import Layer, cells, ring, sheet
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.lights import airport_lights
+from airhilt.sensors.cameras.scene.mesh_cache import kept_mesh
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Colour, Mesh, join, srgb
+from airhilt.units import DEGREE
 
 if TYPE_CHECKING:  # An airport brings in NetworkX, which en route nobody needs.
     from airhilt.world.surface.layout import Layout
@@ -101,9 +103,25 @@ class Landscape:
                 )
 
 
-def airport_landscape(layout: Layout, light: Illumination) -> Landscape:
-    """Return an airport."""
-    return _Airport(layout, light).landscape()
+def airport_landscape(layout: Layout, light: Illumination, is_kept: bool = False) -> Landscape:
+    """Return an airport.
+
+    Parameters
+    ----------
+    is_kept
+        True if its mesh is taken from the cache, or kept there for other processes.
+    """
+    blocks = tuple(
+        Block(each.name, _polygon(each.footprint, layout), each.height_m)
+        for each in layout.airport.buildings
+    )
+    away = _shadow_reach(light)
+
+    def make() -> Mesh:
+        return _Airport(layout, blocks, away).mesh()
+
+    mesh = kept_mesh([layout.airport.model_dump_json(), away], make) if is_kept else make()
+    return Landscape(mesh, airport_lights(layout), blocks)
 
 
 def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> Landscape:
@@ -125,11 +143,21 @@ def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> 
 
 
 class _Airport:
-    def __init__(self, layout: Layout, light: Illumination) -> None:
+    """The mesh of an airport.
+
+    Parameters
+    ----------
+    away
+        Way that the shadow of a height of 1 m goes, in m; None without shadows.
+    """
+
+    def __init__(
+        self, layout: Layout, blocks: Sequence[Block], away: tuple[float, float] | None
+    ) -> None:
         self._layout = layout
         self._airport = layout.airport
         self._plane = layout.local_frame
-        self._light = light
+        self._away = away
         self._seed = _seed(layout.airport.icao)
         to_local = layout.local_frame.to_local
         nodes = {node.name: to_local(node.place) for node in self._airport.taxiways.nodes}
@@ -137,27 +165,19 @@ class _Airport:
             ((nodes[edge.nodes[0]], nodes[edge.nodes[1]]), edge.width_m)
             for edge in self._airport.taxiways.edges
         ]
-        self._blocks = tuple(
-            Block(building.name, self._polygon(building.footprint), building.height_m)
-            for building in self._airport.buildings
-        )
+        self._blocks = blocks
         self._runways = unary_union([strip.pavement for strip in layout.strips.values()])
         self._taxiways = unary_union(
             [LineString(leg).buffer(width / 2.0, ARC) for leg, width in self._legs]
         )
         self._apron = self._apron_area()
-        self._water = unary_union([self._polygon(water.outline) for water in self._airport.water])
+        waters = [_polygon(water.outline, layout) for water in self._airport.water]
+        self._water = unary_union(waters)
         paved = [self._runways, self._taxiways, self._apron, *(b.outline for b in self._blocks)]
         reach = unary_union([geometry.buffer(140.0, ARC) for geometry in paved])
         self._inside = reach.buffer(160.0, ARC).buffer(-160.0, ARC)
 
-    def _polygon(self, outline: tuple[tuple[float, float], ...]) -> Polygon:
-        corners = [
-            self._plane.to_local((math.radians(lat), math.radians(lon))) for lat, lon in outline
-        ]
-        return Polygon(corners).buffer(0.0)
-
-    def landscape(self) -> Landscape:
+    def mesh(self) -> Mesh:
         parts = [sheet(self._layers(), self._shadows(), self._seed), _base()]
         for block in self._blocks:
             shape = scenery.tower if block.name == "Tower" else scenery.building
@@ -170,7 +190,7 @@ class _Airport:
         for found in (scenery.trees(woods, self._seed), scenery.houses(town, self._seed)):
             if found is not None:
                 parts.append(found)
-        return Landscape(join(parts), airport_lights(self._layout), self._blocks)
+        return join(parts)
 
     # --- ground -------------------------------------------------------------------------------
 
@@ -219,15 +239,10 @@ class _Airport:
         return joined.difference(keep_off)
 
     def _shadows(self) -> BaseGeometry:
-        sun = self._light.sun
-        if sun[2] < math.sin(math.radians(2.0)) or self._light.overcast > 0.8:
+        if self._away is None:
             return Polygon()
-        length = min(math.hypot(sun[0], sun[1]) / float(sun[2]), SHADOW_REACH)
-        level = max(math.hypot(sun[0], sun[1]), 1e-6)
-        away = -float(sun[0]) / level * length, -float(sun[1]) / level * length
-        return unary_union(
-            [scenery.shadow(block.outline, block.height_m, away) for block in self._blocks]
-        )
+        shadows = [scenery.shadow(each.outline, each.height_m, self._away) for each in self._blocks]
+        return unary_union(shadows)
 
     def _furniture(self) -> Iterator[Mesh]:
         """Yield the boards that stand beside holding positions."""
@@ -235,6 +250,22 @@ class _Airport:
             east, north = self._plane.to_local(hold.place)
             sin, cos = math.sin(hold.heading_rad), math.cos(hold.heading_rad)
             yield scenery.sign(east - cos * 16.0, north + sin * 16.0, hold.heading_rad, SIGN_RED)
+
+
+def _shadow_reach(light: Illumination) -> tuple[float, float] | None:
+    """Return which way the shadow of a height of 1 m goes, in m; None without shadows."""
+    sun = light.sun
+    if sun[2] < math.sin(math.radians(2.0)) or light.overcast > 0.8:
+        return None
+    length = min(math.hypot(sun[0], sun[1]) / float(sun[2]), SHADOW_REACH)
+    level = max(math.hypot(sun[0], sun[1]), 1e-6)
+    return -float(sun[0]) / level * length, -float(sun[1]) / level * length
+
+
+def _polygon(outline: Sequence[tuple[float, float]], layout: Layout) -> Polygon:
+    """Return an area, given by latitudes and longitudes in degrees, in local metres."""
+    to_local = layout.local_frame.to_local
+    return Polygon([to_local((lat * DEGREE, lon * DEGREE)) for lat, lon in outline]).buffer(0.0)
 
 
 def _base() -> Mesh:

@@ -30,7 +30,10 @@ SHORT_FINAL_M = 1000.0
 
 
 class Approach(FlightPhase):
-    """Flies a curve that ends at the threshold, and from its last line on the final approach."""
+    """Flies a curve that ends at the threshold, and from its last line on the final approach.
+
+    It descends with the glide path along the curve; one that ``keeps_level`` only on its last line.
+    """
 
     name = "approach"
 
@@ -42,12 +45,15 @@ class Approach(FlightPhase):
         path: CurvedPath,
         level: Altitude,
         preparation: Preparation,
+        *,
+        keeps_level: bool = False,
     ) -> None:
         super().__init__(systems)
         self.final = final
         self.exit_path = exit_path
         self._path = path
         self._level = level
+        self._keeps_level = keeps_level
         self.preparation = preparation
 
     def leave_at(self, exit_path: Sequence[Place]) -> None:
@@ -67,7 +73,7 @@ class Approach(FlightPhase):
             return glide.fly(state)
         airspeed = self.preparation.airspeed_m_s(to_go_m)
         vertical_rate = self._level.vertical_rate(state)
-        if not is_below:
+        if not is_below and (curve.is_on_last_piece or not self._keeps_level):
             vertical_rate = min(vertical_rate, final.vertical_rate(state, to_go_m))
         systems.autopilot.fly(state, turn_rate, vertical_rate, airspeed)
         return self

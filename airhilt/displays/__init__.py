@@ -1,0 +1,1 @@
+"""What displays of other programs show of a run, live by a bridge or by `airhilt export`."""
