@@ -41,7 +41,7 @@ def camera_run(
         oracle._renderer = BlankSceneRenderer(realised)
         return oracle._renderer
 
-    def workers(given: Options, scenario: Scenario, taken: Any) -> list[Any]:
+    def workers(given: Options, scenario: Scenario, taken: Any, *_: Any) -> list[Any]:
         others = reference(given.model_copy(update={"detector": "none"}), scenario, taken)
         return [*others, oracle] if given.assistant != "none" else others
 

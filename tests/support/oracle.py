@@ -230,7 +230,7 @@ def watched(
 
     reference = reference_workers
 
-    def workers(given: Options, scenario: Scenario, taken: Any) -> Any:
+    def workers(given: Options, scenario: Scenario, taken: Any, *_: Any) -> Any:
         made.append(oracle(cast(Any, None), seed, smallest_px))
         others = reference(given.model_copy(update={"detector": "none"}), scenario, taken)
         return [*others, made[0]]

@@ -162,7 +162,8 @@ class Stations:
 
     def is_approaching(self, callsign: str) -> bool:
         """Return whether an actor flies an approach."""
-        return self._actors[callsign].body.phase in APPROACHING
+        body = self._flying(callsign)
+        return body is not None and body.phase in APPROACHING
 
     def _flying(self, callsign: str) -> Aircraft | None:
         body = self._actors[callsign].body

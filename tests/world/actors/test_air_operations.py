@@ -526,12 +526,6 @@ def test_a_heading_to_the_final_course_is_flown_until_it_is_met() -> None:
     told(flight, "land", runway="01").lands_on("01")
 
 
-def test_on_the_approach_another_level_is_refused() -> None:
-    for phase in ("approach", "orbit", "glide", "short_final"):
-        why = PHASES[phase]("737").tell("altitude", altitude_ft=3_000.0)
-        assert why == "unable, on the approach"
-
-
 def test_without_its_clearance_it_goes_on_with_the_approach_and_goes_around_at_its_minimum() -> (
     None
 ):

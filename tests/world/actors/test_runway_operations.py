@@ -149,7 +149,10 @@ class Plane:
 def crew_of(plane: Any) -> Crew:
     reactions = Reactions(reaction_sigma=0.0)
     return Crew(
-        cast(Any, AircraftSpec).model_construct(callsign="AAL1", pilot=reactions), plane, kdca(), 1
+        cast(Any, AircraftSpec).model_construct(callsign="AAL1", initial=None, pilot=reactions),
+        plane,
+        kdca(),
+        1,
     )
 
 
