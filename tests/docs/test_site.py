@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-import tomllib
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -37,14 +36,6 @@ def test_the_messages_have_every_key_and_links_that_lead_to_their_parts() -> Non
 def test_python_has_every_public_name_that_is_a_class_or_a_function() -> None:
     named = {path.rpartition(".")[2] for path in python_api().split("::: ")}
     assert set(airhilt.__all__) - {"__version__", "messages"} <= {name.strip() for name in named}
-
-
-def test_the_addresses_of_the_project_are_the_same_everywhere() -> None:
-    urls = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["urls"]
-    for file in ("README.md", "CITATION.cff", "mkdocs.yml"):
-        text = (ROOT / file).read_text()
-        assert urls["Repository"] in text, file
-        assert urls["Documentation"] in text, file
 
 
 def test_a_tutorial_is_short() -> None:
