@@ -89,8 +89,8 @@ def _position_on_ground(actor: Actor, field: Field, style: Style) -> str | None:
     if runway := layout.runway_at(here):
         return f"on {speak_runway(runway, style)}"
     if stand := layout.stand_at(here):
-        words = [word.upper() if word[-1:].isdigit() else word for word in stand.split("_")]
-        return f"at {speak_place(' '.join(words), style)}"
+        named = [word.upper() if word[-1:].isdigit() else word for word in stand.split("_")]
+        return f"at {speak_place(' '.join(named), style)}"
     taxiway = layout.taxiway_at(here)
     if taxiway is None:
         return None
