@@ -1,1 +1,1 @@
-"""What displays of other programs show of a run, live by a bridge or by `airhilt export`."""
+"""Contents of a run for displays of other programs, live by a bridge or by `airhilt export`."""

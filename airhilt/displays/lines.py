@@ -1,4 +1,4 @@
-"""What is said and told in a run, as lines of a log."""
+"""Calls, advisories and events of a run, as lines of a log."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ class Told(NamedTuple):
 
 @dataclass(frozen=True)
 class Story:
-    """What displays show that take a run as a whole."""
+    """Tracks, calls and advisories of a whole run."""
 
     tracks: dict[str, list[ActorTruth]]
     """The true states of each actor."""

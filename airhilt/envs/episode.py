@@ -36,7 +36,7 @@ LEFT = "its agents have left it"
 
 @dataclass(frozen=True)
 class Plan:
-    """What all episodes of an environment have in common.
+    """Settings that all episodes of an environment have in common.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ def plan_of(
 
 @dataclass(frozen=True)
 class Stepped:
-    """What came of a step, by agent where agents differ."""
+    """Outcome of a step, by agent where agents differ."""
 
     observations: dict[str, dict[str, Any]]
     rewards: dict[str, float]

@@ -1,4 +1,4 @@
-"""What an agent has perceived, and its observation of it."""
+"""Perception of an agent, and its observation of that."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ NOBODY = "nobody"
 
 
 class _Telling(NamedTuple):
-    """What an advisory tells somebody, and what was so then."""
+    """Content of one telling of an advisory, and the truth at that time."""
 
     kind: AdvisoryKind
     sources: tuple[str, ...]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections.abc import Set
 
 from airhilt.scenario.models import (
     AllOf,
@@ -14,6 +14,7 @@ from airhilt.scenario.models import (
     Scenario,
     TimeReached,
 )
+from airhilt.scenario.models.conditions import parts
 
 
 def needed_lines(scenario: Scenario) -> dict[str, tuple[str, ...]]:
@@ -122,11 +123,6 @@ def _can_come_true(condition: Condition, waiting: Set[str], duration_s: float) -
             return True
 
 
-def _awaited(condition: Condition) -> Iterator[str]:
-    """Yield the lines whose end a condition asks for."""
-    match condition:
-        case LineEnded(line=line):
-            yield line
-        case AllOf(conditions=inner) | AnyOf(conditions=inner):
-            for one in inner:
-                yield from _awaited(one)
+def _awaited(condition: Condition) -> list[str]:
+    """Return the lines whose end a condition asks for."""
+    return [each.line for each in parts(condition) if isinstance(each, LineEnded)]

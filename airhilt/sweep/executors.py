@@ -1,4 +1,4 @@
-"""Who does the runs of sweeps: runners on this machine, or the workers of a Dask scheduler."""
+"""Executors of the runs of sweeps: runners on this machine, or the workers of a Dask scheduler."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Executor(Protocol):
 
 
 class Executors:
-    """Who does the runs of one sweep after another; what was started for them ends with it.
+    """Executor of one sweep after another; what was started for it ends with this.
 
     Runners stay from sweep to sweep while the renderer is the same.
     """

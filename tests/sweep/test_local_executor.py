@@ -48,9 +48,11 @@ def test_a_run_that_dies_is_a_crash_and_the_rest_go_on() -> None:
 
 
 def test_what_is_in_hand_ends_with_the_executor() -> None:
+    before = {each.pid for each in psutil.Process().children()}
     with LocalExecutor("", LIMITS, ENVIRONMENT, 2) as executor:
         first = next(executor.outcomes([request("a"), request("hangs")], lambda: False))
-    assert not psutil.pid_exists(first.machine.process)
+    assert first.key == "a"
+    assert not [each for each in psutil.Process().children() if each.pid not in before]
 
 
 def test_files_that_have_changed_since_the_sweep_began_are_told() -> None:

@@ -279,7 +279,7 @@ class Gate:
 
 
 class _Plan(NamedTuple):
-    """What a look at a tile of a camera that moves depends on, besides pictures."""
+    """Inputs of a look at a tile of a camera that moves, besides pictures."""
 
     expected: list[Box]
     """Boxes of what is followed, within the tile."""

@@ -245,11 +245,11 @@ AllOf.model_rebuild()
 AnyOf.model_rebuild()
 
 
-def collisions(condition: Condition) -> Iterator[Pair]:
-    """Yield the pairs whose collision a condition asks for."""
+def parts(condition: Condition) -> Iterator[Condition]:
+    """Yield the conditions that one is made of, itself if it is not made of others."""
     match condition:
-        case Collided(actors=actors):
-            yield actors
         case AllOf(conditions=inner) | AnyOf(conditions=inner):
             for one in inner:
-                yield from collisions(one)
+                yield from parts(one)
+        case _:
+            yield condition

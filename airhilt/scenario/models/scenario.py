@@ -10,7 +10,7 @@ from airhilt.geodesy.positions import Position
 from airhilt.quantities import LONGEST_RUN_S, FileName, Name, Number
 from airhilt.scenario.models.actors import ActorSpec, AircraftSpec, WildlifeSpec
 from airhilt.scenario.models.base import Callsign, Identifier, Model
-from airhilt.scenario.models.conditions import Condition, Pair, collisions
+from airhilt.scenario.models.conditions import Collided, Condition, Pair, parts
 from airhilt.scenario.models.controllers import Controller
 from airhilt.scenario.models.failures import Failure
 from airhilt.scenario.models.radio import Radio
@@ -204,7 +204,8 @@ class Scenario(Model):
     def causes(self) -> list[Pair]:
         """The pairs whose collision begins the conflict, such as an aircraft and a flock."""
         begins = None if self.conflict is None else self.conflict.begins
-        return [] if begins is None else list(collisions(begins))
+        found = () if begins is None else parts(begins)
+        return [each.actors for each in found if isinstance(each, Collided)]
 
     @property
     def roster(self) -> tuple[str, ...]:

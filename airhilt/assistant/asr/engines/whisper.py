@@ -27,7 +27,7 @@ Temperature = Annotated[float, Field(ge=0.0, le=1.0)]
 
 
 class WhisperSettings(Configuration):
-    """How a call is decoded, and what is rejected.
+    """Settings of the decoding of a call, and of what is rejected.
 
     Where openai/whisper is the source, the default is that of `transcribe` in its transcribe.py.
     """

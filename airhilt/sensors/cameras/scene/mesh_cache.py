@@ -21,7 +21,7 @@ from airhilt.shapes.mesh import Floats, Mesh
 COMPRESSION = 1
 """Level of zlib."""
 SHAPES = ((3, 3), (3, 3), (3,), (), ())
-"""What each triangle has in the arrays of a mesh."""
+"""Arrays of a mesh with an entry for each triangle."""
 
 
 def kept_mesh(determined_by: Sequence[object], make: Callable[[], Mesh]) -> Mesh:
