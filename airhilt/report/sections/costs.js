@@ -6,6 +6,6 @@ if (summary) {
     tile("Off the planned level", `${whole(costs.level_deviation_ft_s)} ft s`, "", "distance integrated over the time en route, of all aircraft"),
     tile("Off the planned path", `${fixed(costs.path_deviation_nm_s, 2)} NM s`, "", "likewise, lateral distance"),
     tile("Frequency occupied", seconds(radio.occupied_s), counted(radio.transmissions, "transmission"), `${counted(radio.clarifications, "call")} to say again or to confirm`),
-    tile("Advisories", known(costs.advisories_per_hour) ? `${fixed(costs.advisories_per_hour, 1)} an hour` : "–", `${whole(advisories.length)} in this run`, `spoken for ${seconds(costs.advice_spoken_s)}`),
+    tile("Advisories", whole(advisories.length), known(costs.advisories_per_hour) ? `${fixed(costs.advisories_per_hour, 1)} an hour` : "", `spoken for ${seconds(costs.advice_spoken_s)}`),
   );
 }

@@ -60,8 +60,11 @@ class AdvisoryEvidence(Content):
         """Return one object for each revision of an advisory."""
         advisories = run.summary.advisories if run.summary else ()
         unfounded = {readable(one.id): _names(one.unfounded) for one in advisories}
+        actors = run.info.realised.get("actors", ())
+        callsigns = {actor.get("icao24"): actor["callsign"] for actor in actors}
         for row in self._rows.values():
             row["unfounded"] = unfounded.get(row["id"], [])
+            row["tracks"] = [callsigns.get(track, track) for track in row["tracks"]]
         if self._left_out:
             run.notes.append(
                 f"The evidence shows the first {MOST_ROWS} advisories; {self._left_out} more are "

@@ -12,7 +12,7 @@ function numberTiles() {
       ? `conflict began at ${seconds(s.t_conflict_s)}, warned at ${seconds(s.t_first_warning_s)}${isEarly ? ", before it began" : ""}` : unwarned),
     tile("Lead before closest approach", time(s.lead_before_closest_approach_s), "", known(s.lead_before_closest_approach_s) ? "from the first warning" : unwarned),
   ];
-  const nearest = closest ? tile("Closest approach", distance(closest.horizontal_m), `and ${feet(closest.vertical_m / METRE_PER_FT)}${closeUp ? "" : ` (${whole(closest.horizontal_m)} m, ${whole(closest.vertical_m)} m)`}`,
+  const nearest = closest ? tile("Closest approach", `${distance(closest.horizontal_m)}, ${feet(closest.vertical_m / METRE_PER_FT)}`, closeUp ? "" : `${whole(closest.horizontal_m)} m, ${whole(closest.vertical_m)} m`,
     `at ${seconds(closest.t_s)}, nearest in three dimensions${closeUp ? ", between centres" : ""}`) : tile("Closest approach", "–", "", "no pair was followed");
   const nuisance = tile("Nuisance alerts", String(s.nuisance_alerts ?? "–"), "", known(s.nuisance_alerts) ? "of CAUTION or above, about traffic in no conflict" : "not counted: cameras left exposures out", s.nuisance_alerts ? "warn" : "");
   if (closeUp) return [incursionTile(), ...outcomeTiles(), ...warnings, nearest, failuresTile(), nuisance, ...staleTile()];

@@ -39,9 +39,10 @@ function drawViews(show) {
 function drawPlan() {
   const holder = byId("plan");
   if (!tracks.length) return holder.replaceChildren(dim("The log has no track."));
-  const width = widthOf(holder), besides = innerWidth > 920;
-  const chart = canvas(holder, besides ? Math.min(width * 1.5, 690) : Math.min(Math.max(width * 0.8, 300), 560), view.name === "All traffic" ? "Plan view of all tracks" : `Plan view: ${view.name}`);
-  const { root } = chart, area = { left: airport ? 64 : 54, right: width - 12, top: 12, bottom: chart.height - 44 };
+  const width = widthOf(holder), left = airport ? 64 : 54, most = innerWidth > 920 ? Math.min(width * 1.5, 690) : Math.min(Math.max(width * 0.8, 300), 560);
+  const extent = ({ low, high }) => Math.max(high - low, view.least || 0.01), asHigh = (width - left - 12) * extent(view.box.north) / extent(view.box.east);
+  const chart = canvas(holder, Math.min(Math.max(asHigh + 56, 300), most), view.name === "All traffic" ? "Plan view of all tracks" : `Plan view: ${view.name}`);
+  const { root } = chart, area = { left, right: width - 12, top: 12, bottom: chart.height - 44 };
   const { x, y, perNm, near } = planeScales(area, view.box, view.pad, view.least, true);
   if (airport) drawAirport(clip(root, "airport-clip", area), x, y, perNm / METRE_PER_NM, area);
   axes(root, area, x, y, ...["East", "North"].map((name) => `${name} (${near ? "m" : "NM"})`));
