@@ -1,3 +1,3 @@
 """The version of the package, the only place where it is written."""
 
-__version__ = "0.5.0"
+__version__ = "1.0.0rc1"
