@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from airhilt.metrics.columns import metric_columns
+from airhilt.metrics.columns import Column, metric_columns
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "sweep-columns.md"
 TABLE = re.compile(r"(<!-- metrics -->\n).*?(?=<!-- end -->)", re.DOTALL)
@@ -18,10 +18,16 @@ TABLE = re.compile(r"(<!-- metrics -->\n).*?(?=<!-- end -->)", re.DOTALL)
 def table() -> str:
     """Return the table of all metrics, in Markdown."""
     rows = [
-        f"| `{each.name}` | {each.type} | {each.unit} | {each.description} |"
+        f"| `{each.name}` | {each.type} | {each.unit} | {_meaning(each)} |"
         for each in metric_columns()
     ]
     return "\n".join(["| column | type | unit | meaning |", "|---|---|---|---|", *rows, ""])
+
+
+def _meaning(column: Column) -> str:
+    """Return the description of a column without the part that its name begins with."""
+    part, _, rest = column.description.partition(": ")
+    return rest if rest and column.name.startswith(part.replace(" ", "_")) else column.description
 
 
 def with_table(text: str) -> str:
