@@ -28,6 +28,7 @@ from airhilt.sweep.evaluation.costs import costs
 from airhilt.sweep.evaluation.engine import Evaluation, estimates, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.presets import full, paper, recipients, roc
+from airhilt.sweep.evaluation.presets import ranking as yours
 from airhilt.sweep.evaluation.ranking import Tried, youden_index
 from airhilt.sweep.evaluation.scores import (
     Baselines,
@@ -172,9 +173,19 @@ def test_the_highest_index_stands_first_in_the_ranking() -> None:
 
 
 def test_the_controls_are_in_every_preset() -> None:
-    for preset in (paper, full, recipients, roc):
+    for preset in (paper, full, recipients, roc, yours):
         names = preset.specifications(NO_CAMERAS).keys()
         assert {"silent", "cry_wolf", "twins_silent", "twins_cry_wolf"} <= names
+
+
+def test_an_assistant_at_an_address_is_ranked_beside_the_reference() -> None:
+    url = "http://127.0.0.1:9000/decide"
+    every = yours.specifications(Choice(1, {"cameras": False}, (url, "paper")))
+    assert every["http_127.0.0.1_9000_decide"].options["assistant"] == url
+    assert every["twins_http_127.0.0.1_9000_decide"].options["twin"]
+    assert {"none", "paper", "reference", "silent", "cry_wolf"} <= every.keys()
+    (ranked,) = yours.tables(Results(NO_CAMERAS, dict.fromkeys(every, NOBODY)))
+    assert "http_127.0.0.1_9000_decide" in {line[0] for line in ranked.rows}
 
 
 def test_thresholds_are_multiplied_wherever_an_assistant_has_them() -> None:

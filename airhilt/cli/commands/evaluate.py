@@ -42,11 +42,12 @@ class _PresetOption(click.Option):
 @click.command(
     cls=CommandWithFlags,
     flags=_flags,
-    flags_at=3,
+    flags_at=4,
     epilog="""\b
 Examples:
   airhilt evaluate --preset paper --no-cameras --out evaluations/paper
   airhilt evaluate --preset full --seeds 3 --out evaluations/full
+  airhilt evaluate --preset ranking --assistant http://127.0.0.1:9000/decide --no-cameras
 """,
 )
 @click.option(
@@ -54,6 +55,14 @@ Examples:
     cls=_PresetOption,
     required=True,
     metavar="NAME",
+)
+@click.option(
+    "--assistant",
+    "assistants",
+    multiple=True,
+    metavar="NAME",
+    help="An assistant to be ranked, or the address of yours; may be given again. For the preset "
+    "ranking.",
 )
 @click.option(
     "--seeds",
@@ -86,7 +95,11 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
     preset: Preset = FAMILY.load(given["preset"])
     options = options_given(context).model_dump(mode="json", exclude_unset=True)
     chosen = {name: value for name, value in options.items() if name in CHOSEN}
-    choice = Choice(given["seeds"] or preset.seeds, chosen)
+    if given["assistants"] and not preset.takes_assistants:
+        raise click.UsageError(
+            f"--assistant: the preset {preset.name} has its own assistants; use --preset ranking"
+        )
+    choice = Choice(given["seeds"] or preset.seeds, chosen, given["assistants"])
     work = work_given(given, given["out"] or Path("evaluations") / preset.name)
     quiet = given["quiet"]
     if given["dry_run"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
@@ -40,6 +41,11 @@ class Assistant:
     pattern: str = "*"
     equipped: Equipped = "any"
     modalities: str = ALL
+
+    @property
+    def label(self) -> str:
+        """Name of its sweeps and rows: its own, or its address without what no folder may have."""
+        return re.sub(r"[^A-Za-z0-9_.-]+", "_", self.name).strip("_")
 
     def applies_to(self, scenario: Scenario) -> bool:
         """Return whether it is made for a scenario, and has something to read there."""

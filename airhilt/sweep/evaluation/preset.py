@@ -26,10 +26,13 @@ class Choice:
         Number of seeds, from 0 on.
     options
         Options of all runs that the user gives, as JSON has them; a preset settles the others.
+    assistants
+        Assistants of the user's, for a preset that takes them.
     """
 
     seeds: int
     options: Mapping[str, JsonValue]
+    assistants: tuple[str, ...] = ()
 
     @property
     def has_cameras(self) -> bool:
@@ -90,6 +93,8 @@ class Preset:
         Number of seeds unless the user gives one.
     specifications
         Returns the sweeps by their names, which are those of their folders.
+    takes_assistants
+        True if it runs the assistants that the user names.
     """
 
     name: str
@@ -97,3 +102,4 @@ class Preset:
     seeds: int
     specifications: Callable[[Choice], Mapping[str, Specification]]
     tables: Callable[[Results], Sequence[Table]]
+    takes_assistants: bool = False

@@ -63,7 +63,7 @@ def both_sweeps(
     """Return the two sweeps of an assistant over the scenarios that it applies to, by name."""
     own = [name for name in names if assistant.applies_to(shipped_scenarios()[name])]
     with_conflicts = choice.specification(own, {**settled, **_options(assistant)})
-    return {assistant.name: with_conflicts, **twins(choice, assistant, own, settled)}
+    return {assistant.label: with_conflicts, **twins(choice, assistant, own, settled)}
 
 
 def twins(
@@ -76,7 +76,7 @@ def twins(
     """Return the sweep of an assistant with the nominal twins of scenarios, by its name."""
     own = [name for name in names if shipped_scenarios()[name].nominal_twin is not None]
     options = {**settled, **_options(assistant), "twin": True}
-    return {f"{TWINS}{assistant.name}": choice.specification(own, options, axes)}
+    return {f"{TWINS}{assistant.label}": choice.specification(own, options, axes)}
 
 
 def _options(assistant: Assistant) -> dict[str, JsonValue]:
