@@ -9,8 +9,7 @@ import subprocess
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from typing import Any
@@ -37,7 +36,7 @@ from airhilt.messages import (
     Transmission,
 )
 from airhilt.units import FOOT, SECOND_NS
-from buses import bus_of_a_run
+from buses import bus_of_a_run, router_of_others
 from reports import REPORT
 
 pytestmark = [
@@ -150,17 +149,6 @@ class Heard:
         (self.tokens if here else self.ended).add(str(sample.key_expr))
 
 
-@contextmanager
-def router() -> Iterator[str]:
-    """Yield the endpoint of a router, as rmw_zenohd is one."""
-    endpoint = free_endpoint()
-    session = zenoh.open(configuration("router", "listen", endpoint))
-    try:
-        yield endpoint
-    finally:
-        session.close()  # type: ignore[no-untyped-call]
-
-
 def program(endpoint: str, router: str) -> list[str]:
     path = str(library.folder("bridges") / "ros2.py")
     port = router.rsplit(":", 1)[1]
@@ -175,7 +163,7 @@ def heard() -> Heard:
     store, heard = types(), Heard()
     with ExitStack() as stack:
         bus = stack.enter_context(bus_of_a_run())
-        endpoint = stack.enter_context(router())
+        endpoint = stack.enter_context(router_of_others())
         node = zenoh.open(configuration("client", "connect", endpoint))
         stack.callback(node.close)
         node.declare_subscriber(f"{DOMAIN}/**", lambda sample: heard.hear(store, sample))
