@@ -30,7 +30,7 @@ from zenoh.ext import Int64, z_serialize
 from airhilt.bus.bridge import WallClock, exiting_on_error, options, relay
 from airhilt.bus.session import close_session, configuration
 from airhilt.engines import Package
-from airhilt.errors import BusError, first_line
+from airhilt.errors import BusError
 from airhilt.messages import (
     AdsbReport,
     CameraFrame,
@@ -258,9 +258,9 @@ def main() -> None:
         router = f"tcp/{given.to}:{given.port}"
         try:
             session = zenoh.open(configuration("client", "connect", router))
-        except zenoh.ZError as error:
+        except zenoh.ZError:
             raise BusError(
-                f"no router of ROS 2 answers at {router} ({first_line(error)}); start one with "
+                f"no router of ROS 2 answers at {router}; start one with "
                 "`ros2 run rmw_zenoh_cpp rmw_zenohd`, or name another with --to and --port"
             ) from None
         topics = Topics(Node(session, given.domain))

@@ -31,6 +31,8 @@ TRAIL_S = 60.0
 POINT_PX = 8
 LINE_PX = 2
 LINE_HEIGHT_PX = 20
+LABEL_ABOVE_GROUND_M = 1e6
+"""Distance up to which the ground hides no part of a label, in m."""
 CALL_COLOUR = (255, 255, 255)
 
 
@@ -172,4 +174,5 @@ def _label(text: str, colour: Colour, down_px: int) -> Packet:
         "showBackground": True,
         "horizontalOrigin": "LEFT",
         "pixelOffset": {"cartesian2": [10, down_px]},
+        "disableDepthTestDistance": LABEL_ABOVE_GROUND_M,
     }
