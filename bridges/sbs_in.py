@@ -2,7 +2,8 @@
 
     python bridges/sbs_in.py --connect tcp/127.0.0.1:7447 --from 192.168.1.20 --port 30003
 
-Each line with a position becomes a report at the time at which it comes. The feed tells no
+Each line with a position becomes a report at the time at which it comes; one that cannot be read is
+left out. The feed tells no
 accuracy: NIC, NACp, NACv and SIL are 0, unknown. The bridge connects again whenever the receiver
 goes, and ends with the run.
 """
@@ -10,6 +11,7 @@ goes, and ends with the run.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 from airhilt.bus.bridge import feed_reports
 from airhilt.messages import LiveReport
@@ -28,10 +30,11 @@ class SbsFeed:
         """Yield the reports in the next bytes."""
         *lines, self._rest = (self._rest + data).split(b"\n")
         for line in lines:
-            row = self._lines.row(line.decode(errors="replace").strip())
-            report = None if row is None else report_of({**row, "t_s": 0.0})
-            if report is not None:
-                yield report
+            with suppress(ValueError):
+                row = self._lines.row(line.decode(errors="replace").strip())
+                report = None if row is None else report_of({**row, "t_s": 0.0})
+                if report is not None:
+                    yield report
 
 
 def main() -> None:

@@ -203,6 +203,8 @@ def feed_reports(
             time.sleep(RETRY_S)
 
     with exiting_on_error():
+        if not 0 < given.port < 2**16:
+            raise BusError(f"--port {given.port}: expected a port of the receiver, 1 to 65535")
         relay(given, {}, feed=feed)
 
 

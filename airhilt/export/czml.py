@@ -8,6 +8,7 @@ fit its globe without terrain. The run begins at the time of day of its daylight
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,9 @@ TRAIL_S = 60.0
 """Length of the trail behind an actor, in s."""
 POINT_PX = 8
 LINE_PX = 2
+LINE_HEIGHT_PX = 20
+LABEL_ABOVE_GROUND_M = 1e6
+"""Distance up to which the ground hides no part of a label, in m."""
 CALL_COLOUR = (255, 255, 255)
 
 
@@ -52,12 +56,13 @@ class _Document:
             self.packets.append(self._area(number, outline))
         for actor, states in story.tracks.items():
             self.packets.append(self._actor(actor, states))
+        self._lines: defaultdict[str | None, list[int]] = defaultdict(list)
         for call in story.calls:
             words = f"{call.speaker}: {call.text}"
             place = story.teller((call.speaker,))
             packet = self._words(call.id, words, place, call.t_tx_ns, call.t_end_ns, None)
             self.packets.append(packet | {"description": megahertz(call.frequency_khz)})
-        for advisory, until_ns in story.advisories:
+        for advisory, until_ns in sorted(story.advisories, key=lambda told: told.advisory.t_ns):
             name = f"{advisory.id} {advisory.revision} {advisory.recipient}"
             place = story.teller((advisory.recipient, *advisory.traffic))
             self.packets.append(
@@ -121,16 +126,26 @@ class _Document:
     ) -> Packet:  # fmt: skip
         """Return words that stand for as long as they last at an actor, or at the centre."""
         if severity is None:
-            colour, down_px = CALL_COLOUR, -24
+            colour, line = CALL_COLOUR, 1
         else:
-            colour, down_px = SEVERITY_COLOURS[severity], -44
+            colour, line = SEVERITY_COLOURS[severity], 2 + self._free_line(place, begin_ns, end_ns)
         return {
             "id": name,
             "name": words,
             "availability": self._interval(begin_ns, end_ns),
             "position": {"reference": f"{place or 'centre'}#position"},
-            "label": _label(words, colour, down_px),
+            "label": _label(words, colour, -4 - LINE_HEIGHT_PX * line),
         }
+
+    def _free_line(self, place: str | None, begin_ns: int, end_ns: int) -> int:
+        """Return the lowest line at a place on which no other advisory stands, and take it."""
+        taken_until = self._lines[place]
+        line = next(
+            (line for line, until_ns in enumerate(taken_until) if until_ns <= begin_ns),
+            len(taken_until),
+        )
+        taken_until[line : line + 1] = [end_ns]
+        return line
 
     def _on_ground(self, point: tuple[float, float]) -> list[float]:
         latitude_deg, longitude_deg = self._scene.degrees(point)
@@ -159,4 +174,5 @@ def _label(text: str, colour: Colour, down_px: int) -> Packet:
         "showBackground": True,
         "horizontalOrigin": "LEFT",
         "pixelOffset": {"cartesian2": [10, down_px]},
+        "disableDepthTestDistance": LABEL_ABOVE_GROUND_M,
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import runpy
+import signal
 import socket
 import struct
 import subprocess
@@ -12,17 +13,22 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from datetime import UTC, datetime, timedelta
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from airhilt import run
 from airhilt.bus import free_endpoint
 from airhilt.bus.bridge import WAITING, Feed, WallClock, datagrams
+from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.errors import BusError
 from airhilt.host import library
 from airhilt.messages import ActorTruth, AdsbReport, Clock, CockpitInstruments
+from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
-from buses import bus_of_a_run
+from buses import bus_of_a_run, router_of_others
 
 LONG_S = 120.0
 """Time that a busy machine may take to start a program."""
@@ -373,3 +379,59 @@ def test_the_lines_of_a_run_are_of_today(received: dict[str, bytes]) -> None:
     lines = [line.split(",") for line in received["sbs1.py"].decode().splitlines()]
     today, yesterday = (datetime.now(UTC) - timedelta(days=days) for days in (0, 1))
     assert lines[-1][6] in {f"{day:%Y/%m/%d}" for day in (today, yesterday)}
+
+
+class UntilAllHear(Observer):
+    """Holds up a run until a client of every bridge has heard it, and then stops a bridge."""
+
+    def __init__(self, clients: dict[str, socket.socket], stopped: subprocess.Popen[bytes]) -> None:
+        self.silent = set(clients)
+        self._clients = clients
+        self._stopped = stopped
+
+    def snapshot(self, snapshot: Snapshot) -> None:
+        if self.silent:
+            time.sleep(1.0)
+            self.silent -= {name for name, client in self._clients.items() if any(pieces(client))}
+            if not self.silent:
+                self._stopped.send_signal(signal.SIGSTOP)
+
+
+def test_bridges_beside_a_run_leave_its_log_as_it_is_even_if_one_hangs(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    """Clients of the others never read, but for one of each."""
+    options: dict[str, Any] = {"seed": 3, "latency": "fixed", "share_truth": True, "report": False}
+    alone = run(encounter, out=tmp_path / "alone", **options)
+    endpoint = free_endpoint()
+    with ExitStack() as stack:
+        router = stack.enter_context(router_of_others())
+        ports = {name: free_port() for name in (*BRIDGES, "flightgear.py")}
+        if find_spec("foxglove"):
+            ports["foxglove_websocket.py"] = free_port()
+        if find_spec("rosbags") and find_spec("xxhash"):
+            ports["ros2.py"] = int(router.rsplit(":", 1)[1])
+        clients = {}
+        for name in {*BRIDGES, "flightgear.py"} - set(ON_TCP):
+            clients[name] = stack.enter_context(socket.socket(type=socket.SOCK_DGRAM))
+            clients[name].bind(("127.0.0.1", ports[name]))
+        programs = {
+            name: subprocess.Popen(
+                command(name, endpoint, port)
+                + (["--aircraft", "AAL123"] if name == "flightgear.py" else [])
+            )
+            for name, port in ports.items()
+        }
+        for name in ON_TCP:
+            stack.enter_context(connected(ports[name]))
+            clients[name] = stack.enter_context(connected(ports[name]))
+        observer = UntilAllHear(clients, programs["sbs1.py"])
+        beside = run(
+            encounter, out=tmp_path / "beside", endpoint=endpoint, observer=observer, **options
+        )
+        programs["sbs1.py"].send_signal(signal.SIGCONT)
+        codes = {name: program.wait(timeout=LONG_S) for name, program in programs.items()}
+    assert not observer.silent
+    assert codes == dict.fromkeys(ports, 0)
+    log, other = (folder.folder / "log.mcap" for folder in (alone, beside))
+    assert log.read_bytes() == other.read_bytes()

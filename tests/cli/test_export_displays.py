@@ -60,6 +60,16 @@ def state(t_s: int) -> ActorTruth:
     )  # fmt: skip
 
 
+def advisory(name: str, revision: int, t_s: float) -> Advisory:
+    """An advisory to AAL123, or its end, revision 1."""
+    return Advisory(
+        t_ns=round(t_s * SECOND_NS), id=name, revision=revision, recipient="AAL123",
+        recipients=("AAL123",), kind="runway_conflict", severity=Severity.WARNING,
+        active=revision == 0, traffic=("AAL123", "OPS1"), message=ADVICE,
+        evidence=Evidence(sources=("vision",)), t_ready_ns=0,
+    )  # fmt: skip
+
+
 STATES = [state(t_s) for t_s in range(5)]
 
 
@@ -82,14 +92,8 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> airhilt.Result:
         engine="network", detections=(Detection(label="truck", confidence=0.75, box=BOX),),
     )  # fmt: skip
     folder.write("vision/tower", found)
-    for revision, t_s in ((0, 3), (1, 4)):
-        advisory = Advisory(
-            t_ns=t_s * SECOND_NS, id="simple-1", revision=revision, recipient="AAL123",
-            recipients=("AAL123",), kind="runway_conflict", severity=Severity.WARNING,
-            active=revision == 0, traffic=("AAL123", "OPS1"), message=ADVICE,
-            evidence=Evidence(sources=("vision",)), t_ready_ns=0,
-        )  # fmt: skip
-        folder.write("advisory/AAL123", advisory)
+    folder.write("advisory/AAL123", advisory("simple-1", 0, 3.0))
+    folder.write("advisory/AAL123", advisory("simple-1", 1, 4.0))
     folder.folder.pictures_path.mkdir()
     picture = PictureName("first_detection", "tower", 3).path(folder.folder.pictures_path)
     Image.new("RGB", (WIDTH, HEIGHT), COLOUR).save(picture)
@@ -157,6 +161,25 @@ def test_words_of_czml_stand_at_who_says_or_hears_them(run: airhilt.Result, tmp_
         (f"AAL123: {ADVICE}", "AAL123#position"),
     ]
     assert any(packet.get("name") == "runway 01/19" for packet in packets)
+
+
+def test_advisories_at_one_actor_are_on_different_lines_of_czml(tmp_path: Path) -> None:
+    folder = RadioFolder(tmp_path / "run")
+    realised = json.loads(airhilt.load("s01b_dropped_hold").model_dump_json())
+    folder.folder.write_info(folder.folder.info().model_copy(update={"realised": realised}))
+    folder.write("truth/state/AAL123", STATES[0])
+    for name, revision, t_s in (
+        ("first", 0, 1.0), ("second", 0, 2.0), ("first", 1, 3.0), ("third", 0, 3.0),
+        ("second", 1, 4.0), ("third", 1, 4.0),
+    ):  # fmt: skip
+        folder.write("advisory/AAL123", advisory(name, revision, t_s))
+    (path,) = export(airhilt.open_run(folder.close()), "czml", tmp_path / "czml")
+    first, second, third = (
+        packet["label"]["pixelOffset"]["cartesian2"]
+        for packet in json.loads(path.read_text())
+        if "reference" in packet.get("position", {})
+    )
+    assert first == third != second
 
 
 @pytest.fixture
