@@ -3,9 +3,8 @@
     python bridges/sbs_in.py --connect tcp/127.0.0.1:7447 --from 192.168.1.20 --port 30003
 
 Each line with a position becomes a report at the time at which it comes; one that cannot be read is
-left out. The feed tells no
-accuracy: NIC, NACp, NACv and SIL are 0, unknown. The bridge connects again whenever the receiver
-goes, and ends with the run.
+left out. The feed tells no accuracy: NIC, NACp, NACv and SIL are 0, unknown. The bridge connects
+again whenever the receiver goes, and ends with the run.
 """
 
 from __future__ import annotations
@@ -18,6 +17,9 @@ from airhilt.messages import LiveReport
 from airhilt.world.tracks.reports import report_of
 from airhilt.world.tracks.sbs import SbsLines
 
+LONGEST_LINE = 1000
+"""Bytes of a line that are kept until it ends."""
+
 
 class SbsFeed:
     """Makes reports of the bytes of a feed; a line may come in several pieces."""
@@ -28,7 +30,8 @@ class SbsFeed:
 
     def reports(self, data: bytes) -> Iterator[LiveReport]:
         """Yield the reports in the next bytes."""
-        *lines, self._rest = (self._rest + data).split(b"\n")
+        *lines, rest = (self._rest + data).split(b"\n")
+        self._rest = rest[:LONGEST_LINE]
         for line in lines:
             with suppress(ValueError):
                 row = self._lines.row(line.decode(errors="replace").strip())
