@@ -106,7 +106,7 @@ def _shots(
 ) -> Iterator[Picture]:
     taken = number = 0
     while taken < count:
-        sitting = casting.sitting(number, stream(seed, "dataset", number))
+        sitting = casting.sitting(number, stream(seed, f"dataset/{place}", number))
         airport = None if sitting.layout is None else sitting.layout.airport.icao
         with closing(scene_renderer_of(sitting, renderer)) as scene_renderer:
             for turn, name in enumerate(sitting.order[: count - taken]):
