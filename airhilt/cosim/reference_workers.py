@@ -8,7 +8,7 @@ from airhilt.assistant.language_model import LanguageModelSettings
 from airhilt.assistant.reference import decision_worker, reference_worker, vision_worker
 from airhilt.engine_families import ASSISTANTS, NONE
 from airhilt.messages import SPEAK_MIN_LEVEL, Modality, Severity, WorkerDescription
-from airhilt.options import Options
+from airhilt.options import Options, class_pairs
 from airhilt.scenario import Scenario
 from airhilt.workers.protocol import Worker
 
@@ -78,7 +78,13 @@ def reference_workers(
     has_pictures = options.cameras and bool(scenario.cameras) and "vision" in given
     if has_pictures and options.detector != NONE and "vision" not in taken and is_assisted:
         require("vision")
-        workers.append(vision_worker(options.detector, shares_detections=options.share_pictures))
+        workers.append(
+            vision_worker(
+                options.detector,
+                classes=class_pairs(options.detector_classes) if options.detector_classes else None,
+                shares_detections=options.share_pictures,
+            )
+        )
     return workers + deciding
 
 
