@@ -147,7 +147,7 @@ def _dense(given: npt.NDArray[np.generic], sides: Sides) -> Family | None:
     if rows <= MOST_QUERIES and columns == 6:
         return Family("YOLOv10", _final, keeps_shape=True, threshold=0.25)
     if rows <= MOST_QUERIES and columns > 4:
-        return Family("RT-DETR of ultralytics", _one_array, class_count=columns - 4, threshold=0.25)
+        return Family("RT-DETR of ultralytics", _one_array, class_count=columns - 4)
     return None
 
 

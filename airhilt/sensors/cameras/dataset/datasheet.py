@@ -38,7 +38,7 @@ animals.
 Boxes are about all of a body that is within the picture, whether hidden or not, cut at the
 border. Masks are of the visible pixels; `area` is their number. `calibration` is that of a pinhole
 without distortion: `rotation` takes the camera's axes (right, down, ahead) to east, north and up.
-Depths, if exported, are along the optical axis in m, as float16.
+Depths, if exported, are along the optical axis in m, as float32.
 
 **Collection.** Drawn by AIRHILT. Settings: {settings}. The same settings give the same bytes.
 
