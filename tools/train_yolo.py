@@ -26,7 +26,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--model", required=True, help="weights, .pt, or a model's .yaml")
     parser.add_argument("--out", type=Path, required=True, help="a new folder")
     parser.add_argument("--epochs", type=int, default=50)
-    parser.add_argument("--side", type=int, default=640, help="of the pictures, in pixels")
+    parser.add_argument("--side", type=int, default=640, help="side of the pictures, in pixels")
     parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--device", default="cpu", help="as torch names it, such as 0")
     parser.add_argument("--seed", type=int, default=0)

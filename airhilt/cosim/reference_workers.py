@@ -78,13 +78,7 @@ def reference_workers(
     has_pictures = options.cameras and bool(scenario.cameras) and "vision" in given
     if has_pictures and options.detector != NONE and "vision" not in taken and is_assisted:
         require("vision")
-        workers.append(
-            vision_worker(
-                options.detector,
-                classes=class_pairs(options.detector_classes) if options.detector_classes else None,
-                shares_detections=options.share_pictures,
-            )
-        )
+        workers.append(_vision_worker(options))
     return workers + deciding
 
 
@@ -95,6 +89,15 @@ def speak_min_level(workers: Iterable[WorkerDescription]) -> Severity:
         if worker.modality == "decision" and level is not None:
             return Severity(level)
     return SPEAK_MIN_LEVEL
+
+
+def _vision_worker(options: Options) -> Worker:
+    classes = options.detector_classes
+    return vision_worker(
+        options.detector,
+        classes=None if classes is None else class_pairs(classes),
+        shares_detections=options.share_pictures,
+    )
 
 
 def _language_model(options: Options) -> LanguageModelSettings | None:

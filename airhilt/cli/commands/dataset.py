@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -129,18 +129,10 @@ def export(
     )
     from airhilt.world.loading import load
 
-    if (width is None) != (height is None):
-        raise AirhiltError("--width and --height go together; expected both or neither")
-    if "mot" in formats and scenario is None and sequence == 1:
-        raise AirhiltError("--format mot is for sequences; expected --sequence N, or --scenario")
-    size = None if width is None or height is None else (width, height)
+    size = _checked_size(width, height)
+    _require_use(scenario, airports, formats, sequence)
     settings: dict[str, Any] = {"seed": seed, "renderer": renderer, "size": size, "depth": depth}
     if scenario is not None:
-        if airports:
-            raise AirhiltError(
-                "--airport would do nothing: a scenario has its own place; expected only one of "
-                "--airport and --scenario"
-            )
         declared = load(scenario)
         settings |= {"scenario": scenario, "images": images}
     else:
@@ -161,6 +153,25 @@ def export(
     click.echo(out / "datasheet.md")
     for name, *counts in balance.table():
         click.echo(f"{name:12}" + "".join(f"{count:>8}" for count in counts))
+
+
+def _checked_size(width: int | None, height: int | None) -> tuple[int, int] | None:
+    if (width is None) != (height is None):
+        raise AirhiltError("--width and --height go together; expected both or neither")
+    return None if width is None or height is None else (width, height)
+
+
+def _require_use(
+    scenario: str | None, airports: Sequence[str], formats: Sequence[str], sequence: int
+) -> None:
+    """Complain about options that do nothing together."""
+    if scenario is not None and airports:
+        raise AirhiltError(
+            "--airport would do nothing: a scenario has its own place; expected only one of "
+            "--airport and --scenario"
+        )
+    if "mot" in formats and scenario is None and sequence == 1:
+        raise AirhiltError("--format mot is for sequences; expected --sequence N, or --scenario")
 
 
 COMMAND = dataset
