@@ -145,13 +145,16 @@ def export(
             if scenario is not None
             else random_pictures(images, seed, airports, renderer, size or SIZE, takes, first)
         )
-        console = Console(stderr=True)
-        total = max(images - first, 0)
-        yield from track(pictures, "pictures", total=total, console=console, transient=True)
+        left, console = max(images - first, 0), Console(stderr=True)
+        yield from track(pictures, "pictures", total=left, console=console, transient=True)
 
     balance = write(take, out, settings, formats, depth)
     click.echo(out / "datasheet.md")
-    for name, *counts in balance.table():
+    _show(balance.table())
+
+
+def _show(rows: Sequence[Sequence[str]]) -> None:
+    for name, *counts in rows:
         click.echo(f"{name:12}" + "".join(f"{count:>8}" for count in counts))
 
 
