@@ -67,8 +67,8 @@ DETECTORS = EngineFamily[Any](
     product="airhilt.assistant.vision.detector:Detector",
     modality="vision",
     option="detector",
-    help="What looks at pictures: embedded, embedded:FILE.onnx, yolo:FILE, the address of a "
-    "service, or none.",
+    help="What looks at pictures: embedded, embedded:FILE.onnx, onnx:FILE, yolo:FILE, the "
+    "address of a service, or none.",
     default="embedded",
     words=(NONE,),
     needs=("cameras", "assistant"),

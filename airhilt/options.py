@@ -42,6 +42,8 @@ from airhilt.scenario.models.scene import Visibility
 
 RUN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,79}")
 """Names of runs: one chunk of a key of Zenoh, and of a path."""
+LABEL = re.compile(r"[a-z][a-z0-9_-]{0,39}")
+"""Classes of what cameras see, as `airhilt.messages.VisibleClass` has them."""
 LONGEST_S = 86_400.0
 """Greatest timeout in s."""
 MODALITIES: tuple[Modality, ...] = ("adsb", "asr", "vision")
@@ -124,6 +126,34 @@ def _in_order(text: str) -> str:
             {"text": shown(text)},
         )
     return "+".join(each for each in MODALITIES if each in given)
+
+
+def class_pairs(text: str) -> dict[str, str]:
+    """Return the labels by names of a text such as ``aircraft=airplane,lorry=truck``.
+
+    Raises
+    ------
+    ValueError
+        It is none.
+    """
+    pairs = [part.partition("=") for part in text.split(",")]
+    for name, _, label in pairs:
+        if not name.strip() or not LABEL.fullmatch(label.strip()):
+            raise ValueError(
+                f"found {text!r}; expected pairs such as aircraft=airplane,lorry=truck"
+            )
+    return {name.strip(): label.strip() for name, _, label in pairs}
+
+
+def _in_pairs(text: str) -> str:
+    """Return pairs of names and classes unchanged."""
+    try:
+        class_pairs(text)
+    except ValueError as error:
+        raise PydanticCustomError(
+            "pairs", "found {text}; {error}", {"text": shown(text), "error": str(error)}
+        ) from None
+    return text
 
 
 Seconds = Annotated[float, Field(gt=0.0, le=LONGEST_S, allow_inf_nan=False)]
@@ -389,6 +419,18 @@ class Options(BaseModel):
         ),
     ] = False
     detector: Annotated[str, _engine_flag(DETECTORS, CAMERAS)] = DETECTORS.default
+    detector_classes: Annotated[
+        Annotated[str, AfterValidator(_in_pairs)] | None,
+        Flag(
+            "--detector-classes",
+            "What classes of an onnx: or yolo: detector are called here, such as "
+            "aircraft=airplane,lorry=truck.",
+            "NAME=CLASS,...",
+            default="by known synonyms; what is dropped is told",
+            needs=("cameras", "assistant"),
+            group=CAMERAS,
+        ),
+    ] = None
     visibility_m: Annotated[
         Visibility | None,
         Flag(

@@ -71,11 +71,19 @@ def reference_worker(
     raise WorkerError(f"no reference worker {kind!r}; expected one of {', '.join(kinds)}")
 
 
-def vision_worker(engine: str, name: str = "vision", *, shares_detections: bool = False) -> Worker:
+def vision_worker(
+    engine: str,
+    name: str = "vision",
+    *,
+    classes: Mapping[str, str] | None = None,
+    shares_detections: bool = False,
+) -> Worker:
     """Return the worker around a detector.
 
     Parameters
     ----------
+    classes
+        Labels by the names that the detector's model gives its classes.
     shares_detections
         True if it shares the detections of the same pictures with other runs.
 
@@ -87,7 +95,8 @@ def vision_worker(engine: str, name: str = "vision", *, shares_detections: bool 
     from airhilt.assistant.vision.shared_looks import Reproducible, SharedLooks
     from airhilt.assistant.vision.worker import VisionWorker
 
-    detector = DETECTORS.create(engine)
+    configuration = None if classes is None else {"classes": classes}
+    detector = DETECTORS.create(engine, configuration)
     if shares_detections and isinstance(detector, Reproducible):
         return VisionWorker(detector, name, SharedLooks(detector))
     return VisionWorker(detector, name)

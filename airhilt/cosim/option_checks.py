@@ -8,7 +8,7 @@ from dataclasses import replace
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.cosim.engines_in_use import is_own_engine
-from airhilt.engine_families import ASSISTANTS, EXTERNAL, FAMILIES, NONE
+from airhilt.engine_families import ASSISTANTS, DETECTORS, EXTERNAL, FAMILIES, NONE
 from airhilt.errors import AirhiltError, WorkerError, shown
 from airhilt.messages import InputSpec
 from airhilt.options import MODALITIES, Options, flag_of
@@ -70,6 +70,13 @@ def check_options(options: Options, scenario: Scenario) -> None:
     if options.assistant_config is not None:
         assistant, _ = ASSISTANTS.choose(options.assistant or ASSISTANTS.default)
         assistant.configured(options.assistant_config)
+    if options.detector_classes is not None:
+        detector, _ = DETECTORS.choose(options.detector, DETECTORS.words)
+        if detector.configuration is None:
+            raise AirhiltError(
+                f"--detector-classes would do nothing with --detector {shown(options.detector)}, "
+                "which has its own classes; expected onnx:FILE or yolo:FILE"
+            )
     _require_evidence(options)
     require_known_equipment((*scenario.equipment, *options.equipment))
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from airhilt.assistant.vision.class_names import notice_of
 from airhilt.bus.attach import attach, require_different_names
 from airhilt.bus.closed import ClosedBus
 from airhilt.bus.session import Bus
@@ -116,6 +117,9 @@ def connect(
         _participant(worker, "in process", is_of_user(options, worker.description.modality))
         for worker in reference_workers(options, setup.scenario, taken, require)
     ]
+    for participant in made:
+        if told := notice_of(participant.description):
+            notice(told)
     if not recorded.is_replay:
         used = engines_in_use(options, (), made)
         for sentence in other_machines(options, used):

@@ -8,7 +8,7 @@ from airhilt.assistant.language_model import LanguageModelSettings
 from airhilt.assistant.reference import decision_worker, reference_worker, vision_worker
 from airhilt.engine_families import ASSISTANTS, NONE
 from airhilt.messages import SPEAK_MIN_LEVEL, Modality, Severity, WorkerDescription
-from airhilt.options import Options
+from airhilt.options import Options, class_pairs
 from airhilt.scenario import Scenario
 from airhilt.workers.protocol import Worker
 
@@ -78,7 +78,7 @@ def reference_workers(
     has_pictures = options.cameras and bool(scenario.cameras) and "vision" in given
     if has_pictures and options.detector != NONE and "vision" not in taken and is_assisted:
         require("vision")
-        workers.append(vision_worker(options.detector, shares_detections=options.share_pictures))
+        workers.append(_vision_worker(options))
     return workers + deciding
 
 
@@ -89,6 +89,15 @@ def speak_min_level(workers: Iterable[WorkerDescription]) -> Severity:
         if worker.modality == "decision" and level is not None:
             return Severity(level)
     return SPEAK_MIN_LEVEL
+
+
+def _vision_worker(options: Options) -> Worker:
+    classes = options.detector_classes
+    return vision_worker(
+        options.detector,
+        classes=None if classes is None else class_pairs(classes),
+        shares_detections=options.share_pictures,
+    )
 
 
 def _language_model(options: Options) -> LanguageModelSettings | None:

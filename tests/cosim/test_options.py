@@ -102,6 +102,8 @@ def test_a_configuration_of_a_worker_of_the_user_is_refused(
         ({"asr": "typo", "assistant": "none"}, "'typo' would do nothing with --assistant none"),
         ({"detector": "typo", "cameras": False}, "'typo' would do nothing with --no-cameras"),
         ({"detector": "typo"}, "detector 'typo': there is none of that name"),
+        ({"detector_classes": "aircraft"}, "found 'aircraft'; expected pairs such as"),
+        ({"detector_classes": "jet=airplane"}, "with --detector 'embedded', which has its own"),
         ({"tts": "typo"}, "voice 'typo': there is none of that name"),
         ({"asr": "folder/none.onnx"}, "there is none of that name"),
         ({"assistant": "typo"}, "'typo': there is none of that name; expected .*, or external"),

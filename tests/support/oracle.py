@@ -104,15 +104,15 @@ class BlankSceneRenderer:
         return CameraPicture(name, view, sightings, sha256, blank)
 
     def _sighting(self, body: Any, view: Any) -> Any:
-        whole = self._outlines[body.actor, body.shape].box(body.pose, view)
-        if whole is None:
+        projected = self._outlines[body.actor, body.shape].seen(body.pose, view)
+        if projected is None:
             return None
-        box = whole.within(view)
+        box, whole = projected.in_picture, projected.whole
         if box.area <= 0.0:
             return None
         range_m = math.dist(body.pose.position_m, view.pose.position_m)
         left = math.exp(-self._extinction_per_m * range_m)
-        model, cut = self._models[body.actor], 1.0 - box.area / whole.area
+        model, cut = self._models[body.actor], 1.0 - whole.within(view).area / whole.area
         return Sighting(body.actor, model.label, box, box.area, 1.0, cut, range_m, left)
 
 

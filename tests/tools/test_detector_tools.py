@@ -20,7 +20,8 @@ import detector_places as places
 import eval_detector as judging
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.detectors.embedded import Calibration
-from airhilt.sensors.cameras.dataset.coco import run_lengths
+from airhilt.sensors.cameras.dataset.placement import gone_on
+from airhilt.sensors.cameras.dataset.records import run_lengths
 from airhilt.sensors.cameras.scene.bodies import BodyState
 
 BOX = (40.0, 30.0, 60.0, 40.0)
@@ -275,17 +276,17 @@ class TestMinutesOfCameras:
         return BodyState("own", 0.0, 0.0, up_m, math.pi / 2.0, 0.02, 0.0, shape, True)
 
     def test_an_aircraft_on_the_ground_rolls_ahead(self) -> None:
-        later = calibrating.gone_on(self.aircraft(3.0, "gear"), 10.0)
+        later = gone_on(self.aircraft(3.0, "gear"), 10.0)
         assert (later.east_m, later.up_m) == (pytest.approx(80.0), 3.0)
         assert (later.pitch_rad, later.roll_rad) == (0.02, 0.0)
 
     def test_one_with_its_gear_down_descends_and_stays_above_the_ground(self) -> None:
         start = self.aircraft(200.0, "gear")
-        heights = [calibrating.gone_on(start, float(t)).up_m for t in range(120)]
+        heights = [gone_on(start, float(t)).up_m for t in range(120)]
         assert heights == sorted(heights, reverse=True)
         assert heights[10] == pytest.approx(200.0 - 750.0 * math.tan(math.radians(3.0)))
         assert heights[-1] > 0.0
 
     def test_one_in_cruise_keeps_its_height(self) -> None:
-        later = calibrating.gone_on(self.aircraft(3000.0, "clean"), 10.0)
+        later = gone_on(self.aircraft(3000.0, "clean"), 10.0)
         assert (later.east_m, later.up_m) == (pytest.approx(750.0), 3000.0)

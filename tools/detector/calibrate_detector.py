@@ -46,8 +46,8 @@ from airhilt.assistant.vision.tracker import Tracker
 from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import CONFIRMED_HITS, CameraView
-from airhilt.sensors.cameras.dataset.coco import scene_renderer_of
-from airhilt.sensors.cameras.dataset.placement import cast
+from airhilt.sensors.cameras.dataset.pictures import scene_renderer_of
+from airhilt.sensors.cameras.dataset.placement import cast, gone_on
 from airhilt.sensors.cameras.dataset.scenes import Casting, Sitting, station_of
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
@@ -58,11 +58,6 @@ from detector_data import CLASSES, Shot, read_folder
 from eval_detector import loosely, matched, on_faint
 
 RATE_HZ = 16.0
-SPEEDS_M_S = {"ground": 8.0, "air": 75.0}
-ROLLING_BELOW_M = 10.0
-DESCENT = math.tan(math.radians(3.0))
-WOBBLE_RAD, WOBBLE_HZ = math.radians(0.4), 0.3
-"""Amplitude and frequency of pitch and roll in flight."""
 SIZE = (640, 360)
 THRESHOLDS = tuple(round(1.0 / (1.0 + math.exp(-0.25 * step)), 3) for step in range(-8, 25))
 RIDGE = 1e-2
@@ -102,12 +97,12 @@ def runs(
     """Yield kinds of cameras, each with the pictures of one of them."""
     done = number = 0
     while done < count:
-        sitting = casting.sitting(number, stream(seed, "minutes", number))
+        sitting = casting.sitting(number, seed, "minutes")
         drawing = scene_renderer_of(sitting, renderer)
         try:
-            chosen = list(dict.fromkeys(sitting.order))[:MOST_RUNS_OF_A_SITTING]
+            chosen = sitting.order[:MOST_RUNS_OF_A_SITTING]
             for camera in chosen[: count - done]:
-                draws = stream(seed, "minutes/run", number, done)
+                draws = stream(seed, f"minutes/run/{sitting.place}", number, done)
                 begin = cast(sitting, camera, draws, empty=1.0)
                 yield (
                     station_of(camera),
@@ -142,21 +137,6 @@ def shots(
             taken.instance == number,
             taken.unchanged,
         )
-
-
-def gone_on(body: BodyState, t_s: float) -> BodyState:
-    """Return where an aircraft is after some time: rolling, or in flight and on the way down."""
-    rolling = body.up_m < ROLLING_BELOW_M
-    way = t_s * SPEEDS_M_S["ground" if rolling else "air"]
-    sink = 0.0 if rolling or body.shape == "clean" else min(way * DESCENT, 0.8 * body.up_m)
-    wobble = 0.0 if rolling else WOBBLE_RAD * math.sin(math.tau * WOBBLE_HZ * t_s)
-    return body._replace(
-        east_m=body.east_m + way * math.sin(body.heading_rad),
-        north_m=body.north_m + way * math.cos(body.heading_rad),
-        up_m=body.up_m - sink,
-        pitch_rad=body.pitch_rad + wobble,
-        roll_rad=body.roll_rad + wobble,
-    )
 
 
 def false_detections(detector: EmbeddedDetector, pictures: Iterator[Exposure]) -> dict[float, int]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from airhilt.assistant.vision.class_names import HasClassMap
 from airhilt.assistant.vision.detector import Detector, Found, Shot
 from airhilt.assistant.vision.gating import Gate, SeenPicture
 from airhilt.assistant.vision.shared_looks import SharedLooks
@@ -52,6 +53,9 @@ class VisionWorker:
                 InputSpec(key="camera/*/frame", policy="latest"),
             ),
             latency=DeclaredLatency(median_s=0.02),
+            configuration=(
+                detector.classes.configuration if isinstance(detector, HasClassMap) else {}
+            ),
         )
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -10,6 +13,7 @@ from airhilt.cli.parameters import PATH, renderer_option
 from airhilt.errors import AirhiltError
 from airhilt.imaging import GREATEST_SIDE_PX, SMALLEST_SIDE_PX
 
+SIZE = (640, 360)
 SIDE = click.IntRange(SMALLEST_SIDE_PX, GREATEST_SIDE_PX)
 
 
@@ -28,6 +32,7 @@ Examples:
   airhilt dataset export --out pictures --images 1000
   airhilt dataset export --out test --images 500 --seed 7 --airport LSZH --airport en_route
   airhilt dataset export --out headon --images 200 --scenario s02a_headon --renderer moderngl
+  airhilt dataset export --out tracks --images 800 --sequence 20 --format mot --format yolo
 """
 )
 @click.option("--out", required=True, type=PATH, metavar="DIR")
@@ -53,6 +58,40 @@ Examples:
     show_default=True,
     help="Part of random pictures with nobody in them.",
 )
+@click.option(
+    "--pictures-per-world",
+    type=click.IntRange(min=1),
+    default=10,
+    show_default=True,
+    metavar="N",
+    help="Random pictures with one weather, light and place; then comes the next place.",
+)
+@click.option(
+    "--sequence",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    metavar="N",
+    help="Pictures that a camera of a random world takes one after the other, while all moves.",
+)
+@click.option(
+    "--rate",
+    type=click.FloatRange(0.1, 100.0),
+    default=10.0,
+    show_default=True,
+    metavar="HZ",
+    help="Pictures a second in a --sequence.",
+)
+@click.option(
+    "--format",
+    "formats",
+    type=click.Choice(["coco", "yolo", "mot"]),
+    multiple=True,
+    default=("coco",),
+    show_default="coco",
+    help="Format of the truth; may be given again, also when the pictures are there.",
+)
+@click.option("--depth", is_flag=True, help="Write the depth of each pixel, as NumPy arrays.")
 @renderer_option
 @click.option("--width", type=SIDE, metavar="PIXELS", help="[default: 640, or the scenario's]")
 @click.option("--height", type=SIDE, metavar="PIXELS", help="[default: 360, or the scenario's]")
@@ -63,40 +102,79 @@ def export(
     airports: tuple[str, ...],
     scenario: str | None,
     empty: float,
+    pictures_per_world: int,
+    sequence: int,
+    rate: float,
+    formats: tuple[str, ...],
+    depth: bool,
     renderer: str,
     width: int | None,
     height: int | None,
 ) -> None:
-    """Write pictures and, as COCO, the boxes, masks and ranges of all that is in them.
+    """Write pictures with the boxes, masks and ranges of all that is in them, and a datasheet.
 
-    Own aircraft of mounted cameras are seen, but nothing is said about them. The same seed gives
-    the same bytes.
+    Own aircraft of mounted cameras are seen, but nothing is said about them. The same options give
+    the same bytes. An export that was stopped goes on when it is started again, also with more
+    --images.
     """
     from rich.console import Console
     from rich.progress import track
 
-    from airhilt.sensors.cameras.dataset.coco import export as write
-    from airhilt.sensors.cameras.dataset.coco import random_pictures, scenario_pictures
+    from airhilt.sensors.cameras.dataset.export import export as write
+    from airhilt.sensors.cameras.dataset.pictures import (
+        Picture,
+        Takes,
+        random_pictures,
+        scenario_pictures,
+    )
     from airhilt.world.loading import load
 
+    size = _checked_size(width, height)
+    _require_use(scenario, airports, formats, sequence)
+    settings: dict[str, Any] = {"seed": seed, "renderer": renderer, "size": size, "depth": depth}
+    if scenario is not None:
+        declared = load(scenario)
+        settings |= {"scenario": scenario, "images": images}
+    else:
+        takes = Takes(pictures_per_world, sequence, rate, empty)
+        settings |= {"airports": airports, **asdict(takes)}
+
+    def take(first: int) -> Iterator[Picture]:
+        pictures = (
+            scenario_pictures(declared, images, seed, renderer, size, first)
+            if scenario is not None
+            else random_pictures(images, seed, airports, renderer, size or SIZE, takes, first)
+        )
+        left, console = max(images - first, 0), Console(stderr=True)
+        yield from track(pictures, "pictures", total=left, console=console, transient=True)
+
+    balance = write(take, out, settings, formats, depth)
+    click.echo(out / "datasheet.md")
+    _show(balance.table())
+
+
+def _show(rows: Sequence[Sequence[str]]) -> None:
+    for name, *counts in rows:
+        click.echo(f"{name:12}" + "".join(f"{count:>8}" for count in counts))
+
+
+def _checked_size(width: int | None, height: int | None) -> tuple[int, int] | None:
     if (width is None) != (height is None):
         raise AirhiltError("--width and --height go together; expected both or neither")
-    size = None if width is None or height is None else (width, height)
-    if scenario is not None:
-        if airports:
-            raise AirhiltError(
-                "--airport would do nothing: a scenario has its own place; expected only one of "
-                "--airport and --scenario"
-            )
-        pictures = scenario_pictures(load(scenario), images, seed, renderer, size)
-    else:
-        pictures = random_pictures(images, seed, airports, renderer, size or (640, 360), empty)
-    console = Console(stderr=True)
-    shown = track(pictures, "pictures", total=images, console=console, transient=True)
-    about = {"seed": seed, "renderer": renderer, "scenario": scenario}
-    counts = write(iter(shown), out, about)
-    click.echo(out / "annotations.json")
-    click.echo("  ".join(f"{count} {name}" for name, count in counts.items()))
+    return None if width is None or height is None else (width, height)
+
+
+def _require_use(
+    scenario: str | None, airports: Sequence[str], formats: Sequence[str], sequence: int
+) -> None:
+    """Complain about options that do nothing together."""
+    if scenario is not None and airports:
+        raise AirhiltError(
+            "--airport would do nothing: a scenario has its own place; expected only one of "
+            "--airport and --scenario"
+        )
+    if "mot" in formats and scenario is None and sequence == 1:
+        raise AirhiltError("--format mot is for sequences; expected --sequence N, or --scenario")
 
 
 COMMAND = dataset

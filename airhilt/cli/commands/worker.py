@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -30,6 +31,11 @@ Examples:
     help="Configuration of a decision engine, as for `airhilt cosim`.",
 )
 @click.option(
+    "--detector-classes",
+    metavar="NAME=CLASS,...",
+    help="What a detector's classes are called here, as for `airhilt cosim`.",
+)
+@click.option(
     "--connect", metavar="ENDPOINT", help="The run's endpoint.  [default: that of the keys]"
 )
 @click.option(
@@ -51,6 +57,7 @@ def worker(
     kind: str,
     engine: str | None,
     assistant_config: Path | None,
+    detector_classes: str | None,
     connect: str | None,
     tls: Path | None,
     run_name: str | None,
@@ -59,17 +66,28 @@ def worker(
 ) -> None:
     """Attach a reference worker to a run from this process."""
     from airhilt.assistant.reference import reference_worker
+    from airhilt.assistant.vision.class_names import notice_of
     from airhilt.configuration import read_configuration
+    from airhilt.options import class_pairs
     from airhilt.workers import serve
 
     if connect is None and tls is None:
         raise click.UsageError("expected --connect ENDPOINT, or --tls DIR")
-    settings = {}
+    settings: dict[str, Any] = {}
     if assistant_config is not None:
         if kind != "decision":
             raise click.UsageError(f"--assistant-config would do nothing for a worker of {kind}")
         settings["configuration"] = read_configuration(assistant_config)
+    if detector_classes is not None:
+        if kind != "vision":
+            raise click.UsageError(f"--detector-classes would do nothing for a worker of {kind}")
+        try:
+            settings["classes"] = class_pairs(detector_classes)
+        except ValueError as error:
+            raise click.UsageError(f"--detector-classes {detector_classes}: {error}") from None
     made = reference_worker(kind, engine, name or kind, **settings)
+    if told := notice_of(made.description):
+        click.echo(told, err=True)
     if engine is not None:
         family = next(each for each in FAMILIES if each.modality == kind)
         chosen, argument = family.choose(engine)

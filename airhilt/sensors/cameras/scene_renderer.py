@@ -216,10 +216,10 @@ class SceneRenderer:
         view = View(lens, camera.at.pose)
         for name in model.shapes:
             shape = f"{model.kind}/{name}"
-            whole = self._bodies.outlines[shape].box(AT_ORIGIN, view)
-            if whole is None or whole.within(view).area <= 0.0:
+            projected = self._bodies.outlines[shape].seen(AT_ORIGIN, view)
+            if projected is None or projected.in_picture.area <= 0.0:
                 continue
-            window = whole.within(view).window(view)
+            window = projected.in_picture.window(view)
             part = Part(shape, AT_ORIGIN, window, OWN_SAMPLES)
             drawn = by_sample(self._renderer.parts(view, [part])[0].distance_m, OWN_SAMPLES)
             covered[window.slices] |= np.isfinite(drawn).any(axis=0)

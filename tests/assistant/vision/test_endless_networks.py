@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
-from airhilt.assistant.vision.detectors.yolo import YoloDetector
+from airhilt.assistant.vision.detectors.onnx import OnnxDetector
 from airhilt.errors import VisionError
 
 pytest.importorskip("onnx")
@@ -56,8 +56,8 @@ def test_the_network_of_a_refiner_is_stopped(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("sides", [("rows", "columns"), (64, 96)])
-def test_the_network_of_a_yolo_is_stopped(tmp_path: Path, sides: tuple[int | str, ...]) -> None:
+def test_a_network_of_others_is_stopped(tmp_path: Path, sides: tuple[int | str, ...]) -> None:
     path = tmp_path / "endless.onnx"
     write_endless(path, {"images": (TensorProto.FLOAT, [1, 3, *sides])}, {"output0": [1, 6, 100]})
     with pytest.raises(VisionError, match=r"endless\.onnx: the network does not end within 0\.3 s"):
-        YoloDetector(path)
+        OnnxDetector(path)

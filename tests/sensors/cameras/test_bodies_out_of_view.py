@@ -29,15 +29,17 @@ views = st.builds(
 @examples(80)
 @given(view=views, pose=poses)
 def test_a_body_that_is_left_out_has_no_box_in_the_picture(view: View, pose: Pose) -> None:
-    whole, shadow = PROJECTED.box(pose, view), PROJECTED.shadow_box(pose, view, SUN)
-    if whole is not None and whole.within(view).area > 0.0:
-        assert OUTLINE.box(pose, view) == whole
-    if shadow is not None and shadow.within(view).area > 0.0:
-        assert OUTLINE.shadow_box(pose, view, SUN) == shadow
+    for all_of_it, found in (
+        (PROJECTED.seen(pose, view), OUTLINE.seen(pose, view)),
+        (PROJECTED.shadow(pose, view, SUN), OUTLINE.shadow(pose, view, SUN)),
+    ):
+        if all_of_it is not None and all_of_it.in_picture.area > 0.0:
+            assert found is not None
+            assert found.in_picture == all_of_it.in_picture
 
 
 def test_a_body_beside_and_behind_the_camera_is_left_out() -> None:
     view = View(Intrinsics(640, 360, 1.0), Pose.of((0.0, 0.0, 2.0), 0.0))
     for place in ((0.0, -50.0, 2.0), (80.0, 60.0, 2.0), (-80.0, 60.0, 2.0), (0.0, 60.0, 70.0)):
-        assert OUTLINE.box(Pose.of(place, 0.3), view) is None
-    assert OUTLINE.box(Pose.of((0.0, 60.0, 2.0), 0.3), view)
+        assert OUTLINE.seen(Pose.of(place, 0.3), view) is None
+    assert OUTLINE.seen(Pose.of((0.0, 60.0, 2.0), 0.3), view)

@@ -44,11 +44,11 @@ def test_directions_go_through_the_pixels_from_which_they_come() -> None:
 def test_a_box_about_a_body_that_reaches_behind_the_camera_fills_its_side() -> None:
     outline = Outline.of(box((0.5, 0.5, 0.5), 4.0, 60.0, 3.0))
     view = View(LENS, Pose.of((5.0, 0.0, 1.5), 0.0))
-    found = outline.box(Pose.of((0.0, 0.0, 0.0), 0.0), view)
+    found = outline.seen(Pose.of((0.0, 0.0, 0.0), 0.0), view)
     assert found is not None
-    assert found.within(view).left == 0.0
-    assert found.right < 320.0
-    assert outline.box(Pose.of((0.0, -100.0, 0.0), 0.0), view) is None
+    assert found.in_picture.left == 0.0
+    assert found.in_picture.right < 320.0
+    assert outline.seen(Pose.of((0.0, -100.0, 0.0), 0.0), view) is None
 
 
 def test_the_sun_is_in_the_south_at_noon_and_as_high_as_the_season_has_it() -> None:

@@ -27,7 +27,8 @@ from airhilt.messages import (
 from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.dataset.coco import export, scenario_pictures
+from airhilt.sensors.cameras.dataset.export import export
+from airhilt.sensors.cameras.dataset.pictures import scenario_pictures
 from airhilt.sensors.cameras.scene.bodies import kind_model
 from airhilt.world.actors import build_actors
 from airhilt.world.checks import check
@@ -145,8 +146,9 @@ def test_a_run_labels_them_and_hears_them_as_their_files_say(tmp_path: Path) -> 
 @pytest.mark.slow
 @pytest.mark.usefixtures("other_package")
 def test_data_sets_have_their_classes_after_the_usual_ones(tmp_path: Path) -> None:
-    found = export(scenario_pictures(scenario(), 4, renderer="embree"), tmp_path / "data", {})
-    assert (found["moose"], found["drone"], found["deer"]) == (2, 2, 0)
+    pictures = scenario_pictures(scenario(), 4, renderer="embree")
+    found = export(lambda _: pictures, tmp_path / "data", {}).bodies
+    assert found == {("train", "moose"): 2, ("train", "drone"): 2}
     written = json.loads((tmp_path / "data" / "annotations.json").read_text())
     names = {category["id"]: category["name"] for category in written["categories"]}
     assert list(names) == [1, 2, 3, 4, 5, 6, 7]

@@ -6,7 +6,6 @@ The package is under the AGPL and no part of AIRHILT; the extra ``yolo`` install
 
 from __future__ import annotations
 
-import ast
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,49 +13,33 @@ from typing import Any
 
 import numpy as np
 
+from airhilt.assistant.vision.class_names import ClassMap, DetectorClasses
 from airhilt.assistant.vision.detector import Found, Picture
-from airhilt.assistant.vision.detectors.embedded import has_card
 from airhilt.engines import Engine, Package
 from airhilt.errors import VisionError, first_line
-from airhilt.host.onnx import open_network, require_end
-from airhilt.messages import VisibleClass
 
-LABELS: Mapping[str, VisibleClass] = {
-    "airplane": "airplane",
-    "truck": "truck",
-    "car": "truck",
-    "bus": "truck",
-    "bird": "bird",
-    "deer": "deer",
-    "coyote": "coyote",
-}
-"""Labels by the names that models give their classes: COCO's, and two that others have.
-
-Findings of other classes, such as a dog or a horse, are dropped."""
 LEAST_CONFIDENCE = 0.1
 """Findings with less are not reported (``track_low_thresh`` of ultralytics' trackers)."""
 THRESHOLD = 0.25
 """Findings with less only continue tracks (``conf`` of ultralytics' predictions)."""
 MOST_FOUND = 300
 STRIDE_PX = 32
-TRIAL_PX = 320
-"""Side of the picture with which a network that takes any is tried, in pixels."""
-EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
+EXPECTED = "a model for detection of ultralytics, .pt (onnx:FILE takes .onnx)"
 ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOSE": "false"}
 """Variables with which ultralytics neither loads nor installs nor prints anything.
 
 It reads them when it is imported, and when it looks for a network."""
-LITERALS = ("args", "imgsz", "kpt_names", "kpt_shape", "names")
-"""Metadata of an ``.onnx`` file that ultralytics reads as Python; versions 8.3 may run it."""
 
 
 class YoloDetector:
-    """Detects with a YOLO model, at the resolution of the picture if the model takes any.
+    """Detects with a YOLO model, at the resolution of the picture.
 
     Parameters
     ----------
     path
-        A ``.pt`` file, which is code that runs when it is loaded, or an ``.onnx`` file.
+        A ``.pt`` file, which is code that runs when it is loaded.
+    classes
+        Labels by the names of its classes, which go before the known synonyms.
 
     Raises
     ------
@@ -65,17 +48,16 @@ class YoloDetector:
         classes.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, classes: Mapping[str, str] | None = None) -> None:
         if not path.is_file():
             raise VisionError(
                 f"detector yolo: {path}: no such file; expected {EXPECTED} (nothing is downloaded)"
             )
-        if path.suffix not in (".pt", ".onnx"):
+        if path.suffix != ".pt":
             raise VisionError(f"detector yolo: {path}: expected {EXPECTED}")
         self.name = f"yolo:{path.stem}"
         self.threshold = THRESHOLD
         self._path = path
-        self._sides_px = _fixed_sides(path) if path.suffix == ".onnx" else None
         try:
             self._model = _load(path)
             names: Mapping[int, str] = self._model.names
@@ -92,15 +74,7 @@ class YoloDetector:
             raise VisionError(
                 f"detector yolo: {path}: its task is {self._model.task!r}; expected {EXPECTED}"
             )
-        self._labels = {
-            index: LABELS[name.lower()] for index, name in names.items() if name.lower() in LABELS
-        }
-        if not self._labels:
-            known = ", ".join(list(names.values())[:5])
-            raise VisionError(
-                f"detector yolo: {path}: it knows {len(names)} classes ({known}...); expected at "
-                f"least one of {', '.join(LABELS)}"
-            )
+        self.classes = ClassMap.of(names, classes or {}, f"detector yolo: {path}")
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture; see `Detector.detect`."""
@@ -108,9 +82,9 @@ class YoloDetector:
         try:
             boxes = self._model.predict(
                 np.ascontiguousarray(picture[..., ::-1]),  # It wants BGR.
-                imgsz=self._sides_px or free,
+                imgsz=free,
                 conf=LEAST_CONFIDENCE,
-                classes=list(self._labels),
+                classes=list(self.classes.labels),
                 max_det=MOST_FOUND,
                 device="cpu",
                 verbose=False,
@@ -119,7 +93,7 @@ class YoloDetector:
                 boxes.cls.int().tolist(), boxes.conf.tolist(), boxes.xyxy.tolist(), strict=True
             )
             return [
-                Found(self._labels[index], confidence, (left, top, right, bottom))
+                Found(self.classes.labels[index], confidence, (left, top, right, bottom))
                 for index, confidence, (left, top, right, bottom) in rows
                 if left < right and top < bottom  # Others lie where the picture was padded.
             ]
@@ -131,46 +105,20 @@ def _load(path: Path) -> Any:
     os.environ.update(ENVIRONMENT)
     from ultralytics import YOLO
 
-    return YOLO(path, task="detect") if path.suffix == ".onnx" else YOLO(path)
+    return YOLO(path)
 
 
-def _fixed_sides(path: Path) -> tuple[int, int] | None:
-    """Return rows and columns of the pictures that a network takes; None if it takes any."""
-    session = open_network(path, f"detector yolo: {path}", EXPECTED, VisionError)
-    metadata = session.get_modelmeta().custom_metadata_map
-    for name in LITERALS:
-        try:
-            ast.literal_eval(metadata.get(name, "None"))
-        except (ValueError, SyntaxError, MemoryError, RecursionError):
-            raise VisionError(
-                f"detector yolo: {path}: its metadata {name!r} is no plain value, and may be code; "
-                f"expected {EXPECTED}"
-            ) from None
-    port, sides = session.get_inputs()[0], None
-    match port.shape:
-        case [_, _, int(rows), int(columns)]:
-            sides = rows, columns
-        case [_, _, _, _]:
-            pass
-        case shape:
-            raise VisionError(f"detector yolo: {path}: takes {shape}; expected {EXPECTED}")
-    channels = port.shape[1] if isinstance(port.shape[1], int) else 3
-    number = np.float16 if port.type == "tensor(float16)" else np.float32
-    trial = np.zeros((1, channels, *(sides or (TRIAL_PX, TRIAL_PX))), number)
-    require_end(session, {port.name: trial}, f"detector yolo: {path}", VisionError)
-    return sides
-
-
-def _is_model(path: Path) -> bool:
-    return path.suffix == ".pt" or (path.suffix == ".onnx" and not has_card(path))
+def _create(file: str, configuration: DetectorClasses | None = None) -> YoloDetector:
+    return YoloDetector(Path(file), configuration.classes if configuration else {})
 
 
 ENGINE = Engine(
     name="yolo",
-    summary="YOLO by ultralytics, .pt or .onnx",
-    create=lambda file: YoloDetector(Path(file)),
+    summary="YOLO by ultralytics, .pt",
+    create=_create,
     argument="FILE",
     is_argument_required=True,
-    takes=lambda text: _is_model(Path(text)),
+    takes=lambda text: text.endswith(".pt"),
     requires=(Package("ultralytics", extra="yolo"),),
+    configuration=DetectorClasses,
 )

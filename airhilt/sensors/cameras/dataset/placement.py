@@ -1,4 +1,4 @@
-"""Places bodies in front of the camera of a random scene."""
+"""Places bodies in front of the camera of a random scene, and moves them on."""
 
 from __future__ import annotations
 
@@ -21,6 +21,11 @@ FAINTEST = 0.03
 FARTHEST_M = 20_000.0
 TRIES = 15
 """Number of tries to place a body within a picture; some pictures have no room for one."""
+ROLLING_BELOW_M = 10.0
+GROUND_M_S, AIR_M_S, BIRD_M_S = 8.0, 75.0, 15.0
+DESCENT = math.tan(3.0 * DEGREE)
+WOBBLE_RAD, WOBBLE_HZ = 0.4 * DEGREE, 0.3
+"""Amplitude and frequency of pitch and roll in flight."""
 _EXTENT_M = {kind: extent for _, group in KINDS for kind, _, extent in group}
 _OFTEN = {kind: often for _, group in KINDS for kind, often, _ in group}
 _FLYING = frozenset(kind for kind, *_ in (*AIRCRAFT, *BIRDS))
@@ -53,6 +58,23 @@ def cast(
         if body is not None:
             bodies[actor] = body
     return list(bodies.values())
+
+
+def gone_on(body: BodyState, t_s: float) -> BodyState:
+    """Return where a body is after some time: on the ground, or in flight and on the way down."""
+    is_bird = body.shape.startswith("flying")
+    rolling = body.up_m < ROLLING_BELOW_M and not is_bird
+    way = t_s * (GROUND_M_S if rolling else BIRD_M_S if is_bird else AIR_M_S)
+    sinks = body.shape == "gear" and not rolling
+    sink = min(way * DESCENT, 0.8 * body.up_m) if sinks else 0.0
+    wobble = 0.0 if rolling else WOBBLE_RAD * math.sin(math.tau * WOBBLE_HZ * t_s)
+    return body._replace(
+        east_m=body.east_m + way * math.sin(body.heading_rad),
+        north_m=body.north_m + way * math.cos(body.heading_rad),
+        up_m=body.up_m - sink,
+        pitch_rad=body.pitch_rad + wobble,
+        roll_rad=body.roll_rad + wobble,
+    )
 
 
 def _carrier(sitting: Sitting, actor: str, draws: np.random.Generator) -> BodyState:

@@ -21,6 +21,7 @@ from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, kind_mod
 from airhilt.sensors.cameras.scene.builder import air_and_sun
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape, airport_landscape, open_country
+from airhilt.sim.streams import stream
 from airhilt.units import DEGREE
 from airhilt.world.surface.layout import Layout, load_layout
 
@@ -30,8 +31,8 @@ FIELDS_OF_VIEW = (10.0, 75.0)
 """Least and greatest field of view, in degrees. Narrow ones show things as large as the tiles of
 bigger pictures do."""
 FIXED_CAMERAS = 6
-SHOTS_OF_A_CAMERA = 4
-"""Pictures of each camera: few, so that there are many skies and grounds."""
+PICTURES_PER_WORLD = 10
+"""Pictures of a world: few, so that there are many skies, grounds and lights."""
 FLIGHT_LATITUDES = (30.0, 55.0)
 """Least and greatest latitude of open country, in degrees."""
 DAYS_OF_A_YEAR = 365
@@ -59,12 +60,17 @@ class Sitting:
 
     Attributes
     ----------
+    place
+        ICAO location indicator of the airport, or `EN_ROUTE`.
     models
         Models by actor: some carry cameras, the others are named after their kind.
     cameras
         Cameras by their names, which begin with their stations.
+    order
+        Names of all cameras, in the order in which they take their turns.
     """
 
+    place: str
     weather: Weather
     daylight: Daylight
     light: Illumination
@@ -97,10 +103,14 @@ class Casting:
         }
         self._models = {kind: make(kind) for make, group in KINDS for kind, *_ in group}
 
-    def sitting(self, number: int, draws: np.random.Generator) -> Sitting:
-        """Return a landscape with its cameras."""
+    def sitting(self, number: int, seed: int, purpose: str) -> Sitting:
+        """Return a landscape with its cameras; places take turns.
+
+        Two places, or two purposes, never have the same weather and cameras by the same seed.
+        """
         place = list(self._layouts)[number % len(self._layouts)]
         layout = self._layouts[place]
+        draws = stream(seed, f"{purpose}/{place}", number)
         latitude = math.radians(float(draws.uniform(*FLIGHT_LATITUDES)))
         if layout is not None:
             latitude = layout.local_frame.origin[0]
@@ -130,9 +140,11 @@ class Casting:
             for index in range(FIXED_CAMERAS):
                 name = f"fixed-{index}"
                 cameras[name] = self._fixed(name, layout, landscape, draws)
-        order = [name for name in cameras for _ in range(SHOTS_OF_A_CAMERA)]
-        order = [order[index] for index in draws.permutation(len(order))]
-        return Sitting(weather, daylight, light, landscape, layout, height, models, cameras, order)
+        names = list(cameras)
+        order = [names[index] for index in draws.permutation(len(names))]
+        return Sitting(
+            place, weather, daylight, light, landscape, layout, height, models, cameras, order
+        )
 
     def _lens(self, draws: np.random.Generator) -> Intrinsics:
         fov = math.exp(draws.uniform(*np.log(FIELDS_OF_VIEW)))

@@ -21,6 +21,9 @@ from airhilt.sensors.cameras.scene.visible_bodies import VisibleBody
 from airhilt.shapes.mesh import Floats
 
 Number = TypeVar("Number", bound=np.generic)
+FILLED = 0.5
+"""Part of a pixel that a body must cover to fill it. One that covers as much, but of no single
+pixel, fills the pixel that it covers most."""
 ON_GROUND_M = 0.3
 """Distance from the ground, in m, up to which a surface is part of it."""
 TOUCHES_M = 0.25
@@ -33,8 +36,10 @@ class Layer:
 
     Attributes
     ----------
-    box, whole
-        Boxes about the body: within the picture, and with what lies beyond it; pixels.
+    box
+        About what of the body is in the picture; pixels.
+    truncation
+        Part of the box about the whole body that lies outside of the picture.
     silhouette
         Area of the body in the picture, hidden or not; pixels.
     cover
@@ -49,7 +54,7 @@ class Layer:
     number: int
     window: Window
     box: Box
-    whole: Box
+    truncation: float
     range_m: float
     silhouette: float
     cover: Floats
@@ -74,7 +79,7 @@ class Layer:
             number,
             body.window,
             body.box,
-            body.whole,
+            body.truncation,
             body.range_m,
             float(is_body.sum()) / samples**2,
             np.add.reduce(seen, axis=0, dtype=np.float32) / count,
@@ -92,7 +97,9 @@ class Layer:
         rows, columns = self.window.slices
         part = colour[rows, columns]
         part[...] = np.rint(part * (1.0 - self.cover[..., None]) + self.colour).astype(np.uint8)
-        filled = self.cover >= 0.5
+        filled = self.cover >= FILLED
+        if not filled.any() and self.cover.sum() >= FILLED:
+            filled = self.cover == self.cover.max()
         instance[rows, columns][filled] = self.number
         distance_m[rows, columns][filled] = self.distance_m[filled]
 
@@ -154,7 +161,7 @@ def sightings_of(
             box=body.box,
             pixels=pixels,
             visible_fraction=fraction,
-            truncation=1.0 - min(body.box.area / max(body.whole.area, 1e-9), 1.0),
+            truncation=body.truncation,
             range_m=body.range_m,
             transmission=math.exp(-extinction_per_m * body.range_m),
         )

@@ -25,18 +25,24 @@ LEAST_BODY_PX = 2.0
 SHADOW_BELOW_M = 150.0
 SMALLEST_SHADOW_PX = 4.0
 SMALL_PX = 4000
-"""Area of a window, in pixels, below which a body is drawn coarsely."""
+"""Area of all the pixels of a body, in the picture or not, below which it is drawn coarsely."""
 
 
 class VisibleBody(NamedTuple):
-    """A body in a picture: the mesh to draw, its window and its boxes."""
+    """A body in a picture: the mesh to draw, its window, and the box about what is in the picture.
+
+    Attributes
+    ----------
+    truncation
+        Part of the box about the whole body that lies outside of the picture.
+    """
 
     body: BodyState
     pose: Pose
     shape: str
     window: Window
     box: Box
-    whole: Box
+    truncation: float
     range_m: float
     transmission: float
 
@@ -83,13 +89,21 @@ class VisibleBodies:
     def seen(self, body: BodyState, pose: Pose, view: View) -> VisibleBody | None:
         """Return a body if it is in the picture, hidden or not."""
         shape = self._shape(body)
-        whole = self.outlines[shape].box(pose, view)
-        if whole is None or (box := whole.within(view)).area <= 0.0:
+        projected = self.outlines[shape].seen(pose, view)
+        if projected is None or (box := projected.in_picture).area <= 0.0:
             return None
+        whole = projected.whole
         away = math.dist(pose.position_m, view.pose.position_m)
-        window = box.window(view)
-        left = math.exp(-self._light.extinction_per_m * away)
-        return VisibleBody(body, pose, self._fitting(shape, window), window, box, whole, away, left)
+        return VisibleBody(
+            body,
+            pose,
+            self._fitting(shape, whole),
+            box.window(view),
+            box,
+            1.0 - min(whole.within(view).area / whole.area, 1.0),
+            away,
+            math.exp(-self._light.extinction_per_m * away),
+        )
 
     def shadow(self, body: BodyState, pose: Pose, view: View) -> Part | None:
         """Return the shadow of a body on flat ground if it is in the picture."""
@@ -101,16 +115,17 @@ class VisibleBodies:
         ):
             return None
         shape = self._shape(body)
-        whole = self.outlines[shape].shadow_box(pose, view, light.sun)
-        if whole is None:
+        projected = self.outlines[shape].shadow(pose, view, light.sun)
+        if projected is None:
             return None
-        box = whole.within(view)
+        box = projected.in_picture
         left = math.exp(-light.extinction_per_m * math.dist(pose.position_m, view.pose.position_m))
         if box.area < SMALLEST_SHADOW_PX or box.area * left < FAINTEST:
             return None
         window = box.window(view)
         samples = max(min(_samples_of(window), 2), self._supersampling)
-        return Part(self._fitting(shape, window), pose, window, samples, is_shadow=True)
+        drawn = self._fitting(shape, projected.whole)
+        return Part(drawn, pose, window, samples, is_shadow=True)
 
     def part(self, seen: VisibleBody) -> Part:
         """Return a body as a renderer is to draw it."""
@@ -136,10 +151,10 @@ class VisibleBodies:
         carried = [(poses[actor], group) for actor, group in lights.items() if actor != carrier]
         return Lights.carried(carried).seen(view, self._light)
 
-    def _fitting(self, shape: str, window: Window) -> str:
+    def _fitting(self, shape: str, whole: Box) -> str:
         """Return the mesh of a shape that fits the size in which it is seen."""
         far = f"{shape}/far"
-        return far if window.area < SMALL_PX and far in self.shapes else shape
+        return far if whole.pixels.area < SMALL_PX and far in self.shapes else shape
 
     def _shape(self, body: BodyState) -> str:
         return f"{self._models[body.actor].kind}/{body.shape}"
