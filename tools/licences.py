@@ -84,9 +84,9 @@ BUNDLED = (
 
 INTRODUCTION = """# Licences
 
-AIRHILT is under the Apache-2.0. A plain install brings the software below. It takes 0.9 GB. The largest
-parts are pyarrow and pandas (tables of sweeps and of run data), scipy, and onnxruntime (recogniser and detector), which
-commands of the README need.
+AIRHILT is under the Apache-2.0. A plain install brings the software below. It takes
+0.9 GB. The largest parts are pyarrow and pandas (tables of sweeps and of run data), scipy, and
+onnxruntime (recogniser and detector), which commands of the README need.
 
 The default voice, espeak-ng, is under the GPL-3.0-or-later. Whoever passes on an environment or an
 image with espeak-ng has the duties of that licence. `--tts flite` and `--no-speech` do not use it.
