@@ -145,7 +145,7 @@ class Radio:
         told = [
             advisory
             for advisory, until_ns in self._story.advisories
-            if advisory.t_ns <= now_ns < until_ns and advisory.severity != "INFO"
+            if advisory.t_ns <= now_ns < until_ns and advisory.severity in ("CAUTION", "WARNING")
         ]
         for line, advisory in enumerate(told[:2], LINES):
             self._write(line, f"to {advisory.recipient}: {advisory.message}", WARNING)

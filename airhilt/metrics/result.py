@@ -107,6 +107,9 @@ class Result(Run):
     def _frame(self, name: str) -> DataFrame:
         return run_frames.read_frames(self, (name,))[name]
 
+    def __repr__(self) -> str:
+        return f"<Result of {self.info.realised.get('name')} in {self.folder}>"
+
     def _repr_html_(self) -> str:
         """Return the numbers as a table, for notebooks."""
         try:

@@ -141,7 +141,8 @@ def _in_seconds(column: Column) -> Column:
     if not column.name.endswith(NANOSECONDS):
         return column
     name = f"{column.name.removesuffix(NANOSECONDS)}_s"
-    return replace(column, name=name, type="float64", unit="s")
+    meaning = column.description.replace("nanoseconds since", "time since")
+    return replace(column, name=name, type="float64", unit="s", description=meaning)
 
 
 def _frame(row: type[BaseModel], sources: Mapping[type[Message], _Rows]) -> _Frame:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
 from pathlib import Path
 
 import click
@@ -110,6 +111,21 @@ def test_published_schemas_are_those_of_the_code() -> None:
     published = ROOT / "docs" / "schemas"
     assert json.loads((published / "messages.json").read_text()) == json_schemas()
     assert json.loads((published / "scenario.json").read_text()) == Scenario.model_json_schema()
+
+
+def test_every_extra_that_a_page_installs_exists() -> None:
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    pages = [*PAGES, ROOT / "bridges" / "README.md", ROOT / "CONTRIBUTING.md"]
+    named = {
+        extra
+        for page in pages
+        for extras in re.findall(
+            r"pip install [^\n]*(?:airhilt|\.)\[([a-z0-9,]+)\]", page.read_text()
+        )
+        for extra in extras.split(",")
+    }
+    assert named
+    assert named <= declared["optional-dependencies"].keys()
 
 
 def test_the_citation_is_of_this_version() -> None:

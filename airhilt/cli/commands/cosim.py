@@ -40,7 +40,9 @@ Examples:
 )
 @click.argument("named", metavar="[NAME_OR_FILE]", required=False)
 @click.option(
-    "--scenario", metavar="NAME_OR_FILE", help="A scenario of `airhilt list`, or a JSON file."
+    "--scenario",
+    metavar="NAME_OR_FILE",
+    help="A scenario of `airhilt list`, or a JSON file; NAME_OR_FILE alone is the same.",
 )
 @allow_path_option
 @click.option(

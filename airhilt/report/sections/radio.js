@@ -30,7 +30,7 @@ function radioTiles() {
   const also = [[r.blocked, "blocked", "blocked"], [r.stuck_microphone, "stuck microphone"], [r.repeats, "made again", "made again"], [r.say_agains, "to say again", "to say again"], [r.transcripts_missing || 0, "without a transcript", "without a transcript"]]
     .filter(([n]) => n).map(([n, one, many]) => counted(n, one, many));
   const heard = Object.keys(HEARD).filter((outcome) => r.hearing[outcome]).map((outcome) => `${r.hearing[outcome]} ${outcome}`).join(", ");
-  const calls = tile("Transmissions", whole(r.transmissions), also.join(", "), heard ? `by those whom they were for: ${heard}` : "", r.blocked || r.stuck_microphone ? "warn" : "");
+  const calls = tile("Transmissions", whole(r.transmissions), also.join(", "), heard ? `by their addressees: ${heard}` : "", r.blocked || r.stuck_microphone ? "warn" : "");
   if (!r.calls && !known(r.hallucinated)) return [calls];
   const noise = known(r.hallucinated) ? `, noise alone gave words ${counted(r.hallucinated, "time")}` : "";
   return [calls,

@@ -14,7 +14,7 @@ byId("warning").hidden = false;
 const after = summary.time_to_first_warning_after_call_s;
 fillTable(byId("warning-parts"), [["Part", "text"], ["Time", "number"]], [
   ...Object.entries(PARTS).map(([part, [name, meaning]]) => [[swatch(colour(part)), ...explained(name, meaning)], seconds(parts[part], 2)]),
-  [explained("Time to first warning", "from the begin of the conflict; negative: warned before it"), seconds(summary.time_to_first_warning_s, 2)],
+  [explained("Time to first warning", "from the beginning of the conflict; negative: warned before it"), seconds(summary.time_to_first_warning_s, 2)],
   ...(known(after) ? [[explained("After the call", "from the end of the call that begins the conflict"), seconds(after, 2)]] : [])]);
 byId("warning-begins").textContent = data.begins ? `begins with ${data.begins}, at ${seconds(summary.t_conflict_s)}` : "";
 
@@ -23,7 +23,7 @@ function drawBar() {
   const values = Object.keys(PARTS).map((part) => parts[part]);
   const low = Math.min(...values, 0), high = values.reduce((sum, value) => sum + Math.max(value, 0), 0);
   const x = scale(low, Math.max(high, low + 1), area.left, area.right, niceTimeStep(Math.max(high - low, 1), 8), (value) => seconds(value));
-  bottomAxis(root, area, x, "Parts added up from the begin of the conflict, in the order of the table");
+  bottomAxis(root, area, x, "Parts added up from the beginning of the conflict, in the order of the table");
   let from = 0;
   for (const [part, [name, meaning]] of Object.entries(PARTS)) {
     const value = parts[part], begin = value < 0 ? value : from, end = value < 0 ? 0 : from + value;
