@@ -73,7 +73,9 @@ class Page:
             parts.append(
                 _without_body(name, text, missing) if missing else self._filled(name, text)
             )
-        return "\n\n".join(parts) + "\n"
+        records = [record for record in self.records.values() if record]
+        tables = [table for record in records for table in record.tables.values()]
+        return _with_notes_once("\n\n".join(parts), tables) + "\n"
 
     def write(self, path: Path, texts: Path = TEXTS) -> None:
         """Write the page, and its figures beside it."""
@@ -114,7 +116,6 @@ class Page:
         record = self.records.get(name)
         if record is None:
             return filled
-        filled = _with_notes_once(filled, record.tables.values())
         return f"{filled}\n\n{_origin(record.code)}" if self._is_draft else filled
 
     def _value(self, placeholder: str) -> str | None:
@@ -215,7 +216,7 @@ def _plain(table: Table) -> str:
 
 
 def _with_notes_once(text: str, tables: Iterable[Table]) -> str:
-    """Return the text of a section; a note of several tables stays under the first of them."""
+    """Return the text of the page; a note of several tables stays under the first of them."""
     notes = {note for table in tables for note in table.notes}
     kept: list[str] = []
     for paragraph in text.split("\n\n"):
