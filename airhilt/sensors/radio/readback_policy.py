@@ -37,6 +37,8 @@ class ReadbackPolicy:
         self._seed = context.seed
         self._questions: dict[frozenset[str | None], RadioCall] = {}
         """The last call that one of two has asked the other to say again."""
+        self._say_agains: dict[tuple[str, str | None], RadioCall] = {}
+        """The last "say again" of one to another."""
         self._world = context.world
         self._calls = calls
         self._speakers = speakers
@@ -131,6 +133,11 @@ class ReadbackPolicy:
         if not call.is_of_person and call.first.times_given >= MOST_TIMES:
             self._give_up(call, listener, self._answers.unreadable(listener, call.speaker))
             return
+        asker_and_asked = listener, call.speaker
+        waiting = self._say_agains.get(asker_and_asked)
+        if waiting is not None and self._is_still_to_be_said(waiting) and not call.is_of_person:
+            waiting.asks_for = call  # One "say again" asks for all that was unclear before it.
+            return
         question = call.reply(
             f"say-again-{call.times_said}",
             listener,
@@ -138,8 +145,12 @@ class ReadbackPolicy:
             is_repeated=False,
             asks_for=None if call.is_of_person else call,
         )
-        self._questions[frozenset((listener, call.speaker))] = call
+        self._questions[frozenset(asker_and_asked)] = call
+        self._say_agains[asker_and_asked] = question
         self._speakers.say_later(question, after_s)
+
+    def _is_still_to_be_said(self, call: RadioCall) -> bool:
+        return call.times_said == 0 or self._speakers.is_being_made(call)
 
     def has_question(self, one: str, other: str | None) -> bool:
         """Return whether one of two waits for what it has asked the other to say again."""
@@ -156,9 +167,10 @@ class ReadbackPolicy:
         if listener in call.deaf and not self._radio.controller_checks_readbacks:
             return  # Nobody notices: that is the failure of the scenario.
         asked = call.asks_for
+        is_latest = self._say_agains.get((call.speaker, listener)) is call
         if asked is not None and self._is_wanted(asked):
             self.call_again(asked, REPEAT_AFTER_S)
-        elif (asked is not None and call.times_said < MOST_TIMES) or (
+        elif (asked is not None and is_latest and call.times_said < MOST_TIMES) or (
             self._is_wanted(call) and call.first.times_given < MOST_TIMES
         ):
             self._say_again_later(call, REPEAT_AFTER_S)

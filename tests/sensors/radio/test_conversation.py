@@ -120,6 +120,13 @@ def test_a_unit_asks_the_caller_by_his_callsign() -> None:
     assert question.text == "American one twenty three, say again."
 
 
+def test_who_is_not_sure_of_two_calls_in_a_row_asks_once() -> None:
+    one = line("one", 2, "AAL123", TOWER, "Washington Center, American one two three.")
+    two = line("two", 2.5, "AAL123", TOWER, "Washington Center, American one two three, request.")
+    world = World(one, two, heard={("one", TOWER): UNSURE, ("two", TOWER): UNSURE}).run()
+    assert world.said() == ["one", "two", "one.say-again-1", "two.repeat-1"]
+
+
 def test_a_question_that_nobody_hears_does_not_end_the_matter() -> None:
     heard = {("clearance", "AAL123"): UNSURE, ("clearance.say-again-1", TOWER): MISSED}
     assert World(CLEARANCE, READBACK, heard=heard).run().said()[-2:] == [
