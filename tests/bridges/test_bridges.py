@@ -567,12 +567,11 @@ def test_bridges_beside_a_run_leave_its_log_as_it_is_even_if_one_hangs(
         for name in ON_TCP:
             stack.enter_context(connected(ports[name]))
             clients[name] = stack.enter_context(connected(ports[name]))
-        hung = programs.get("foxglove_websocket.py", programs["sbs1.py"])
-        observer = UntilAllHear(clients, hung)
+        observer = UntilAllHear(clients, programs["sbs1.py"])
         beside = run(
             encounter, out=tmp_path / "beside", endpoint=endpoint, observer=observer, **settings
         )
-        hung.send_signal(signal.SIGCONT)
+        programs["sbs1.py"].send_signal(signal.SIGCONT)
         codes = {name: program.wait(timeout=LONG_S) for name, program in programs.items()}
     assert not observer.silent
     assert codes == dict.fromkeys(ports, 0)
