@@ -4,8 +4,8 @@
 
 ADS-B reports go out in category 021 and, as tracks, in category 062; plots of surveillance radars
 in category 048. ``--categories`` chooses some of them. All are marked as simulated. The data source
-of the system area code 0 is 1 for ADS-B, 2 for tracks, and 3 and up for radars in the order in
-which their plots come. The bridge ends with the run.
+of the system area code 0 is 1 for ADS-B, 2 for tracks, and 3 and up for radars in the order of
+their names; a line for each says where its antenna is. The bridge ends with the run.
 
 The categories are those of EUROCONTROL-SPEC-0149, part 12 (021, edition 2.6), part 4 (048, edition
 1.21) and part 9 (062, edition 1.18). Items are given by their field reference numbers.
@@ -14,11 +14,18 @@ The categories are those of EUROCONTROL-SPEC-0149, part 12 (021, edition 2.6), p
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import datetime
 
-from airhilt.bus.bridge import WallClock, datagrams, exiting_on_error, options, relay
-from airhilt.messages import EMERGENCY_STATES, AdsbReport, EmitterCategory, PlotKind, RadarPlot
+from airhilt.bus.bridge import WallClock, datagrams, exiting_on_error, options, relay, tell
+from airhilt.messages import (
+    EMERGENCY_STATES,
+    AdsbReport,
+    EmitterCategory,
+    PlotKind,
+    RadarInfo,
+    RadarPlot,
+)
 from airhilt.surveillance.mode_s import (
     GEOMETRIC_VERTICAL_ACCURACY,
     SYSTEM_DESIGN_ASSURANCE,
@@ -49,6 +56,11 @@ EMITTER_CATEGORIES: dict[EmitterCategory, int] = {
     "B4": 15, "B6": 13, "B7": 14, "C1": 20, "C2": 21, "C3": 22, "C4": 23, "C5": 24,
 }  # fmt: skip
 """Code of each emitter category (I021/020); 0, no information, for the others."""
+TRACK_CATEGORIES = {
+    category: code for category, code in EMITTER_CATEGORIES.items() if category not in ("C4", "C5")
+} | {"A2": 3, "A4": 3}
+"""Code of each emitter category (I062/380, EMC), which has one of 7,000 to 136,000 kg; none for the
+others."""
 
 
 def block(category: int, items: Mapping[int, bytes]) -> bytes:
@@ -100,7 +112,7 @@ def track_block(report: AdsbReport, number: int, when: datetime) -> bytes:
     speed_m_s, track = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
     ground_bit = (1 << 9) if report.on_ground else 0
     status = (ground_bit | EMERGENCY_STATES.index(report.emergency)).to_bytes(2)
-    category = EMITTER_CATEGORIES.get(report.emitter_category or "A0", 0)
+    category = TRACK_CATEGORIES.get(report.emitter_category or "A0")
     items = {
         1: _source(TRACK_SOURCE),
         4: _time(when),
@@ -109,10 +121,10 @@ def track_block(report: AdsbReport, number: int, when: datetime) -> bytes:
             _signed(speed_m_s * axis / 0.25, 2) for axis in (math.sin(track), math.cos(track))
         ),
         # Target address; status reported by ADS-B; emitter category.
-        11: bytes([0x80 | MORE, 0x10 | MORE, 0x02])
+        11: bytes([0x80 | MORE, 0x10] if category is None else [0x80 | MORE, 0x10 | MORE, 0x02])
         + bytes.fromhex(report.icao24)
         + status
-        + bytes([category]),
+        + bytes([] if category is None else [category]),
         12: number.to_bytes(2),
         13: bytes([MONOSENSOR | MORE, SIMULATED_TRACK]),
         14: bytes([0x04, 0]),  # Age of the extended squitter.
@@ -186,10 +198,20 @@ class Blocks:
             report, self._tracks.setdefault(report.icao24, len(self._tracks) + 1), received
         )
 
+    def number(self, radars: Iterable[RadarInfo]) -> Iterator[str]:
+        """Give radars their codes in the order of their names; yield a line on each."""
+        for radar in sorted(radars, key=lambda radar: radar.site):
+            yield (
+                f"radar {radar.site}: data source 0/{self._code(radar.site)}, antenna at "
+                f"{radar.latitude_deg:.6f} {radar.longitude_deg:.6f}, {radar.altitude_m:.0f} m"
+            )
+
     def of_plot(self, plot: RadarPlot) -> Iterator[bytes]:
         """Yield the block of a plot."""
-        source = self._radars.setdefault(plot.site, TRACK_SOURCE + 1 + len(self._radars))
-        yield plot_block(plot, source, self._times.at(plot.t_plot_ns))
+        yield plot_block(plot, self._code(plot.site), self._times.at(plot.t_plot_ns))
+
+    def _code(self, site: str) -> int:
+        return self._radars.setdefault(site, TRACK_SOURCE + 1 + len(self._radars))
 
 
 def main() -> None:
@@ -212,12 +234,19 @@ def main() -> None:
                 if data[0] in given.categories:
                     datagram(data)
 
+        def name(kept: list[bytes]) -> None:
+            if 48 in given.categories:
+                for line in blocks.number(RadarInfo.model_validate_json(each) for each in kept):
+                    tell(line)
+
         relay(
             given,
             {
                 "adsb/*": lambda data: send(blocks.of_report(AdsbReport.model_validate_json(data))),
                 "radar/*": lambda data: send(blocks.of_plot(RadarPlot.model_validate_json(data))),
+                "radar/*/info": lambda data: name([data]),
             },
+            told={"radar/*/info": name},
         )
 
 

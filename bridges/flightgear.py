@@ -68,16 +68,27 @@ class Aircraft:
     def __init__(self, callsign: str) -> None:
         self._callsign = callsign
         self._instruments: CockpitInstruments | None = None
+        self._is_shown = False
 
     def read(self, instruments: CockpitInstruments) -> None:
         """Take gear and flaps, if the instruments are those of the aircraft."""
         if instruments.callsign == self._callsign:
             self._instruments = instruments
 
+    def missing(self) -> str | None:
+        """Return a line on the aircraft if no state of it has come."""
+        if self._is_shown:
+            return None
+        return (
+            f"no report of {self._callsign} yet; expected the callsign of an aircraft of a run "
+            "with --share-truth"
+        )
+
     def packet(self, state: ActorTruth) -> bytes | None:
         """Return the packet of a state; None if it is that of another actor."""
         if state.actor != self._callsign:
             return None
+        self._is_shown = True
         if self._instruments is None:
             return packet(state, gear=float(state.on_ground), flaps=0.0)
         return packet(state, self._instruments.gear, self._instruments.flaps)
@@ -105,6 +116,7 @@ def main() -> None:
                     CockpitInstruments.model_validate_json(data)
                 ),
             },
+            missing=aircraft.missing,
         )
 
 

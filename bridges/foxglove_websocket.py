@@ -17,7 +17,7 @@ from collections.abc import Callable
 
 from PIL import Image
 
-from airhilt.bus.bridge import LAST_S, WallClock, exiting_on_error, options, relay
+from airhilt.bus.bridge import LAST_S, WallClock, add_host, exiting_on_error, options, relay
 from airhilt.errors import BusError, first_line
 from airhilt.messages import (
     ActorTruth,
@@ -79,9 +79,7 @@ class Display:
 def main() -> None:
     """Run the bridge until the run is over."""
     parser = options(__doc__, 8765)
-    parser.add_argument(
-        "--host", default="127.0.0.1", help="address to listen on; default: 127.0.0.1"
-    )
+    add_host(parser)
     given = parser.parse_args()
     with exiting_on_error():
         context = Context()

@@ -3,8 +3,8 @@
     python bridges/gdl90.py --connect tcp/127.0.0.1:7447 --to 192.168.1.20 --ownship a1b2c3
 
 Once a second it sends a heartbeat, the ownship report of the aircraft with the address given by
-``--ownship``, and a traffic report of every other sender that was heard since. The bridge ends with
-the run.
+``--ownship``, and a traffic report of every other sender that was heard since. The ownship has no
+valid position once nothing has come of it for five seconds. The bridge ends with the run.
 
 The format is that of the GDL 90 Data Interface Specification (Garmin 560-1058-00, revision A), to
 whose sections the functions refer.
@@ -18,13 +18,17 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 
 from airhilt.bus.bridge import datagrams, exiting_on_error, options, relay
+from airhilt.errors import BusError
 from airhilt.messages import EMERGENCY_STATES, AdsbReport
+from airhilt.world.tracks.record import ADDRESS
 
 FLAG, ESCAPE = b"\x7e", b"\x7d"
 HEARTBEAT, OWNSHIP, TRAFFIC = 0, 10, 20
 """Identifiers of messages (3, table 2)."""
 PERIOD_S = 1.0
 """Period of all messages, in s (3.1, 3.4, 3.5)."""
+VALID_S = 5.0
+"""Time after its last report for which the position of the ownship is valid, in s."""
 ANGLE_STEP_DEG = 180.0 / 2**23
 NO_ALTITUDE = 0xFFF
 FASTEST_KT = 0xFFE
@@ -32,6 +36,8 @@ GREATEST_RATE = 510
 """Greatest vertical rate, in steps of 64 ft/min (3.5.1.7)."""
 SURFACE_VEHICLE = 4
 """Address type of a vehicle (3.5.1.2)."""
+NO_POSITION = {"latitude_deg": 0.0, "longitude_deg": 0.0, "nic": 0}
+"""Fields of an ownship report without a valid position (3.4)."""
 TRUE_TRACK, TRUE_HEADING, AIRBORNE = 1, 3, 8
 """Bits of the miscellaneous field (3.5.1.5)."""
 
@@ -96,24 +102,34 @@ class Traffic:
     def __init__(self, ownship: str | None) -> None:
         self._ownship = ownship
         self._own: AdsbReport | None = None
+        self._silent_s = 0.0
+        """Time since the last report of the ownship."""
         self._others: dict[str, AdsbReport] = {}
         self._lock = threading.Lock()
 
     def hear(self, report: AdsbReport) -> None:
         """Take a report."""
         if report.icao24 == self._ownship:
-            self._own = report
+            self._own, self._silent_s = report, 0.0
         else:
             with self._lock:
                 self._others[report.icao24] = report
+
+    def missing(self) -> str | None:
+        """Return a line on the ownship if no report of it has come."""
+        if self._ownship is None or self._own is not None:
+            return None
+        return f"no report of {self._ownship} yet; expected the address of an aircraft of the run"
 
     def messages(self, when: datetime) -> Iterator[bytes]:
         """Yield the messages of a second."""
         with self._lock:
             others, self._others = self._others, {}
-        yield heartbeat(when, len(others), has_position=self._own is not None)
-        if self._own is not None:
-            yield report_message(OWNSHIP, self._own)
+        own, is_valid = self._own, self._silent_s < VALID_S
+        self._silent_s += PERIOD_S
+        yield heartbeat(when, len(others), has_position=own is not None and is_valid)
+        if own is not None:
+            yield report_message(OWNSHIP, own if is_valid else own.model_copy(update=NO_POSITION))
         for report in others.values():
             yield report_message(TRAFFIC, report)
 
@@ -124,9 +140,15 @@ def main() -> None:
     parser.add_argument("--to", default="127.0.0.1", metavar="HOST", help="default: 127.0.0.1")
     parser.add_argument("--ownship", metavar="ICAO24", help="address of the own aircraft")
     given = parser.parse_args()
-    traffic = Traffic(given.ownship and given.ownship.lower())
+    ownship = given.ownship and given.ownship.lower()
+    traffic = Traffic(ownship)
     is_over = threading.Event()
     with exiting_on_error():
+        if ownship and not ADDRESS.fullmatch(ownship):
+            raise BusError(
+                f"--ownship {given.ownship}: expected the address of an aircraft, six hexadecimal "
+                "digits"
+            )
         send = datagrams(given.to, given.port)
 
         def tell() -> None:
@@ -135,7 +157,11 @@ def main() -> None:
                     send(framed(message))
 
         threading.Thread(target=tell, daemon=True).start()
-        relay(given, {"adsb/*": lambda data: traffic.hear(AdsbReport.model_validate_json(data))})
+        relay(
+            given,
+            {"adsb/*": lambda data: traffic.hear(AdsbReport.model_validate_json(data))},
+            missing=traffic.missing,
+        )
     is_over.set()
 
 

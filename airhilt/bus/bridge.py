@@ -12,13 +12,13 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import zenoh
 
 from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run, wait_until_over
-from airhilt.errors import AirhiltError, BusError
+from airhilt.errors import AirhiltError, BusError, first_line
 from airhilt.messages import AdsbReport, LiveReport, Message
 from airhilt.units import SECOND_NS
 
@@ -30,8 +30,11 @@ LAST_S = 1.0
 """Time that clients have at the end of a run to take what waits for them, in s."""
 RETRY_S = 1.0
 """Time between two attempts to connect to a program, in s."""
+SILENCE_S = 10.0
+"""Time after which a bridge tells what it still waits for, in s."""
 READ_BYTES = 65_536
 """Greatest number of bytes that are read from a receiver at a time."""
+LOOPBACK = "127.0.0.1"
 Publish = Callable[[str, Message], None]
 """Publishes a message on a key below the run."""
 
@@ -56,11 +59,20 @@ def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
     return parser
 
 
+def add_host(parser: argparse.ArgumentParser) -> None:
+    """Add the option with the address on which a bridge listens."""
+    parser.add_argument(
+        "--host", default=LOOPBACK, help=f"address to listen on; default: {LOOPBACK}"
+    )
+
+
 def relay(
     given: argparse.Namespace,
     heard: Mapping[str, Callable[[bytes], None]],
     heard_raw: Mapping[str, Callable[[bytes, bytes], None]] | None = None,
     feed: Callable[[Publish], None] | None = None,
+    missing: Callable[[], str | None] | None = None,
+    told: Mapping[str, Callable[[list[bytes]], None]] | None = None,
 ) -> None:
     """Call functions with the messages of a run until the run is over.
 
@@ -76,12 +88,16 @@ def relay(
     feed
         Called once, on a thread of its own, with what publishes messages in the run; the program
         then joins it as an operator.
+    missing
+        Called once, `SILENCE_S` after the run is found; returns what is then told as missing.
+    told
+        Called once, before all others, with the messages that the run keeps on a key.
 
     Raises
     ------
     BusError
         There is no run at the endpoint, or there are several and none is named; or it does not let
-        this program in.
+        this program in; or ``feed`` failed.
     """
     role: Role = "observer" if feed is None else "operator"
     session = connect_client(given.connect, PATIENCE_S, given.tls, role)
@@ -103,17 +119,41 @@ def relay(
     except BusError:
         close_session(session)
         raise
+    for key, take in (told or {}).items():
+        replies = session.get(f"{prefix}/{key}", timeout=1.0)
+        take([reply.ok.payload.to_bytes() for reply in replies if reply.ok is not None])
     subscribers = [
         session.declare_subscriber(f"{prefix}/{key}", call) for key, call in calls.items()
     ]
+    if missing is not None:
+        late = threading.Timer(SILENCE_S, lambda: tell(missing()))
+        late.daemon = True
+        late.start()
+    news: queue.SimpleQueue[bool | None] = queue.SimpleQueue()
+    failures: list[Exception] = []
+
+    def run_feed(feed: Callable[[Publish], None]) -> None:
+        try:
+            feed(_publishing(session, prefix))
+        except Exception as error:
+            failures.append(error)
+            news.put(None)
+
     if feed is not None:
-        publish = _publishing(session, prefix)
-        threading.Thread(target=feed, args=(publish,), daemon=True).start()
+        threading.Thread(target=run_feed, args=(feed,), daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt):
-        wait_until_over(session, prefix)
+        wait_until_over(session, prefix, news)
     for subscriber in subscribers:
         subscriber.undeclare()  # type: ignore[no-untyped-call]
     close_session(session)
+    for error in failures:
+        raise BusError(f"the feed failed: {first_line(error)}")
+
+
+def tell(text: str | None) -> None:
+    """Print a line for the user, if there is one."""
+    if text is not None:
+        sys.stderr.write(f"{text}\n")
 
 
 def _publishing(session: zenoh.Session, prefix: str) -> Publish:
@@ -154,6 +194,7 @@ def serve_reports(
         Returns what a report becomes.
     """
     parser = options(documentation, port)
+    add_host(parser)
     parser.add_argument(
         "--to", metavar="HOST:PORT", help="connect to a program that listens there, and not listen"
     )
@@ -161,7 +202,7 @@ def serve_reports(
     with exiting_on_error():
         feed = Feed()
         if given.to is None:
-            feed.listen(given.port)
+            feed.listen(given.port, given.host)
         else:
             feed.connect(given.to)
         relay(
@@ -192,20 +233,58 @@ def feed_reports(
     given = parser.parse_args()
 
     def feed(publish: Publish) -> None:
-        while True:
-            with (
-                contextlib.suppress(OSError),
-                socket.create_connection((given.host, given.port)) as connection,
-            ):
+        for connection in connections(given.host, given.port):
+            with contextlib.suppress(OSError), connection:
                 while data := connection.recv(READ_BYTES):
                     for report in decode(data):
                         publish(f"live/{report.icao24}", report)
-            time.sleep(RETRY_S)
 
     with exiting_on_error():
-        if not 0 < given.port < 2**16:
-            raise BusError(f"--port {given.port}: expected a port of the receiver, 1 to 65535")
+        address_of(given.host, given.port, "--from and --port")
         relay(given, {}, feed=feed)
+
+
+class Address(NamedTuple):
+    """A place to which a socket of a family can send or connect."""
+
+    family: int
+    address: tuple[Any, ...]
+
+
+def address_of(host: str, port: int, named_by: str) -> Address:
+    """Return the address of a host and a port, which were given by some options.
+
+    Raises
+    ------
+    BusError
+        There is no such host or port.
+    """
+    place = f"{host}:{port}; see {named_by}"
+    if not 0 < port < 2**16:
+        raise BusError(f"no port {place}; expected a port from 1 to 65535")
+    try:
+        family, _, _, _, address = socket.getaddrinfo(host, port)[0]
+    except (OSError, UnicodeError) as error:
+        raise BusError(f"no host {place}: {error}") from None
+    return Address(family, address)
+
+
+def connections(host: str, port: int) -> Iterator[socket.socket]:
+    """Yield a connection with a program, and another one whenever the last has ended.
+
+    The first failure is told.
+    """
+    is_told = False
+    while True:
+        try:
+            connection = socket.create_connection((host, port))
+        except OSError as error:
+            if not is_told:
+                tell(f"nothing answers at {host}:{port}: {error}; trying on")
+            is_told = True
+        else:
+            yield connection
+        time.sleep(RETRY_S)
 
 
 def datagrams(host: str, port: int) -> Callable[[bytes], None]:
@@ -218,13 +297,8 @@ def datagrams(host: str, port: int) -> Callable[[bytes], None]:
     BusError
         There is no such host or port.
     """
-    try:
-        family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_DGRAM)[
-            0
-        ]
-    except (OSError, OverflowError) as error:
-        raise BusError(f"cannot send to {host}:{port}: {error}; see --to and --port") from None
-    sender = socket.socket(family, kind, protocol)
+    family, address = address_of(host, port, "--to and --port")
+    sender = socket.socket(family, socket.SOCK_DGRAM)
     sender.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
     sender.setblocking(False)
 
@@ -268,13 +342,14 @@ class Feed:
     def __init__(self) -> None:
         self.clients: list[Client] = []
 
-    def listen(self, port: int) -> None:
-        """Accept programs on a port of the loopback address; raise `BusError` if it is taken."""
+    def listen(self, port: int, host: str = LOOPBACK) -> None:
+        """Accept programs on a port of an address; raise `BusError` if it is taken."""
         try:
-            server = socket.create_server(("127.0.0.1", port))
-        except (OSError, OverflowError) as error:
+            server = socket.create_server((host, port))
+        except (OSError, OverflowError, UnicodeError) as error:
             raise BusError(
-                f"cannot listen on 127.0.0.1:{port}: {error}; choose another port with --port"
+                f"cannot listen on {host}:{port}: {error}; choose another port with --port, or "
+                "address with --host"
             ) from None
         threading.Thread(target=self._accept, args=(server,), daemon=True).start()
 
@@ -283,7 +358,8 @@ class Feed:
         host, _, port = address.rpartition(":")
         if not (host and port.isdecimal()):
             raise BusError(f"--to {address!r}: expected HOST:PORT, such as 127.0.0.1:30004")
-        target = (host, int(port))
+        target = host, int(port)
+        address_of(*target, "--to")
         threading.Thread(target=self._keep_connected, args=(target,), daemon=True).start()
 
     def send(self, data: bytes) -> None:
@@ -310,10 +386,8 @@ class Feed:
                 self._admit(server.accept()[0])
 
     def _keep_connected(self, target: tuple[str, int]) -> None:
-        while True:
-            with contextlib.suppress(OSError):
-                self._admit(socket.create_connection(target)).join()
-            time.sleep(RETRY_S)
+        for connection in connections(*target):
+            self._admit(connection).join()
 
     def _admit(self, connection: socket.socket) -> threading.Thread:
         """Serve a client on a thread of its own."""

@@ -201,12 +201,19 @@ def find_run(session: zenoh.Session, patience_s: float, run: str | None = None) 
     raise BusError(f"no run{named} answers at the endpoint after {patience_s:g} s")
 
 
-def wait_until_over(session: zenoh.Session, prefix: str) -> None:
+def wait_until_over(
+    session: zenoh.Session, prefix: str, news: queue.SimpleQueue[bool | None] | None = None
+) -> None:
     """Wait until a run says that it is over, or has been out of reach for `RETURNS_S`.
 
-    ``prefix`` is the beginning of its keys.
+    Parameters
+    ----------
+    prefix
+        Beginning of its keys.
+    news
+        A queue in which None ends the wait too.
     """
-    news: queue.SimpleQueue[bool | None] = queue.SimpleQueue()
+    news = news or queue.SimpleQueue()
 
     def hear_clock(sample: zenoh.Sample) -> None:
         clock = Clock.model_validate_json(sample.payload.to_bytes())

@@ -147,7 +147,7 @@ class FoxgloveChannels:
             timestamp=self.timestamp(report.t_adsb_in_ns),
             latitude=report.latitude_deg,
             longitude=report.longitude_deg,
-            altitude=(report.altitude_ft or 0.0) * FOOT,
+            altitude=math.nan if report.altitude_ft is None else report.altitude_ft * FOOT,
             velocity=Vector3(
                 x=speed * math.sin(track),
                 y=speed * math.cos(track),

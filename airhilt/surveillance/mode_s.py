@@ -139,13 +139,27 @@ def _position_fields(position: CprPosition) -> tuple[tuple[int, int], ...]:
     return (int(position.odd), 1), (position.latitude, 17), (position.longitude, 17)
 
 
-def airborne_position(position: CprPosition, altitude_ft: float | None, nic: int) -> int:
-    """Return the message of an airborne position (MOPS, 2.2.3.2.3)."""
+def airborne_position(
+    position: CprPosition, altitude_ft: float | None, nic: int, has_alert: bool = False
+) -> int:
+    """Return the message of an airborne position (MOPS, 2.2.3.2.3).
+
+    Its surveillance status is 1, permanent alert, during one.
+    """
     how = _AIRBORNE[nic]
     return _packed(
-        [(how.type_code, 5), (0, 2), (how.supplement, 1), (altitude_code(altitude_ft), 12), (0, 1),
-         *_position_fields(position)]
+        [(how.type_code, 5), (int(has_alert), 2), (how.supplement, 1),
+         (altitude_code(altitude_ft), 12), (0, 1), *_position_fields(position)]
     )  # fmt: skip
+
+
+def airborne_integrity(type_code: int, supplement_a: int, supplement: int) -> int:
+    """Return the NIC of an airborne position with a type code and the two NIC supplements.
+
+    It is 0, unknown, for positions with a GNSS height.
+    """
+    forms = (type_code, supplement_a, supplement), (type_code, 0, 0)
+    return next((_AIRBORNE.index(form) for form in forms if form in _AIRBORNE), 0)
 
 
 def surface_position(
@@ -217,9 +231,11 @@ def operational_status(on_ground: bool, nic: int, nacp: int, nacv: int, sil: int
 # --- frames -------------------------------------------------------------------------------------
 
 
-def extended_squitter(address: int, message: int, on_ground: bool) -> bytes:
+def extended_squitter(
+    address: int, message: int, on_ground: bool, has_alert: bool = False
+) -> bytes:
     """Return a message in downlink format 17, of an aircraft's transponder."""
-    return _frame((17, 5), (_capability(on_ground), 3), (address, 24), (message, 56))
+    return _frame((17, 5), (_capability(on_ground, has_alert), 3), (address, 24), (message, 56))
 
 
 def non_transponder_squitter(address: int, message: int) -> bytes:
@@ -227,13 +243,18 @@ def non_transponder_squitter(address: int, message: int) -> bytes:
     return _frame((18, 5), (0, 3), (address, 24), (message, 56))
 
 
-def all_call_reply(address: int, on_ground: bool) -> bytes:
+def all_call_reply(address: int, on_ground: bool, has_alert: bool = False) -> bytes:
     """Return an acquisition squitter, downlink format 11."""
-    return _frame((11, 5), (_capability(on_ground), 3), (address, 24))
+    return _frame((11, 5), (_capability(on_ground, has_alert), 3), (address, 24))
 
 
-def _capability(on_ground: bool) -> int:
-    """Return the field CA of a transponder of level 2 or above (ICAO, 3.1.2.5.2.2.1)."""
+def _capability(on_ground: bool, has_alert: bool) -> int:
+    """Return the field CA of a transponder of level 2 or above (ICAO, 3.1.2.5.2.2.1).
+
+    It is 7 while the flight status says that there is an alert.
+    """
+    if has_alert:
+        return 7
     return 4 if on_ground else 5
 
 

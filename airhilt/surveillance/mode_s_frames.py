@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from airhilt.messages import AdsbReport
 from airhilt.surveillance import cpr, mode_s
+from airhilt.surveillance.transponders import EMERGENCY_CODES
 from airhilt.units import seconds_to_ns
 
 STATUS_S = 5.0
@@ -41,9 +42,9 @@ class FrameSource:
                 yield mode_s.non_transponder_squitter(address, message)
             return
         if self._is_due(report, "acquisition", ACQUISITION_S):
-            yield mode_s.all_call_reply(address, report.on_ground)
+            yield mode_s.all_call_reply(address, report.on_ground, _has_alert(report))
         for message in self._messages(report):
-            yield mode_s.extended_squitter(address, message, report.on_ground)
+            yield mode_s.extended_squitter(address, message, report.on_ground, _has_alert(report))
         if self._is_due(report, "replies", INTERROGATION_S):
             yield from self._replies(report, address)
 
@@ -57,7 +58,9 @@ class FrameSource:
         if report.on_ground:
             yield mode_s.surface_position(position, *motion, report.nic)
         else:
-            yield mode_s.airborne_position(position, report.altitude_ft, report.nic)
+            yield mode_s.airborne_position(
+                position, report.altitude_ft, report.nic, _has_alert(report)
+            )
             yield mode_s.airborne_velocity(*motion, report.vertical_rate_fpm, report.nacv)
         if report.callsign is not None and self._is_due(report, "identification", STATUS_S):
             yield mode_s.identification(report.callsign, report.emitter_category or "A0")
@@ -73,7 +76,7 @@ class FrameSource:
         """Yield the replies to a radar that asks for everything."""
         transponder = mode_s.Surveillance(
             address, report.altitude_ft, report.squawk, report.callsign or "", report.on_ground,
-            has_alert=report.emergency != "none",
+            _has_alert(report),
         )  # fmt: skip
         yield transponder.altitude_reply()
         if report.callsign is not None:
@@ -89,3 +92,8 @@ class FrameSource:
             return False
         self._due_ns[report.icao24, kind] = t_ns + seconds_to_ns(period_s)
         return True
+
+
+def _has_alert(report: AdsbReport) -> bool:
+    """Return whether the Mode A code is that of an emergency (ICAO Annex 10, IV, 3.1.2.6.10.1)."""
+    return report.squawk in EMERGENCY_CODES

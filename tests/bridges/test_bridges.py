@@ -10,7 +10,9 @@ import struct
 import subprocess
 import sys
 import time
+from argparse import Namespace
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
 from datetime import UTC, datetime, timedelta
 from importlib.util import find_spec
@@ -21,11 +23,27 @@ import pytest
 
 from airhilt import run
 from airhilt.bus import free_endpoint
-from airhilt.bus.bridge import WAITING, Feed, WallClock, datagrams
+from airhilt.bus.bridge import (
+    WAITING,
+    Feed,
+    Publish,
+    WallClock,
+    datagrams,
+    options,
+    relay,
+)
+from airhilt.bus.session import Bus
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.errors import BusError
 from airhilt.host import library
-from airhilt.messages import ActorTruth, AdsbReport, Clock, CockpitInstruments
+from airhilt.messages import (
+    ActorTruth,
+    AdsbReport,
+    Clock,
+    CockpitInstruments,
+    RadarInfo,
+    RadarPlot,
+)
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
 from buses import bus_of_a_run, router_of_others
@@ -68,29 +86,39 @@ def free_port() -> int:
     return int(free_endpoint().rsplit(":", 1)[1])
 
 
-def test_a_report_becomes_a_basestation_line() -> None:
-    line = bridge("sbs1.py")["line"]
-    assert line(REPORT, MIDDAY) == (
-        "MSG,3,1,1,A1B2C3,1,2026/03/01,12:00:01.500,2026/03/01,12:00:01.500,AAL123,35000,450,90,"
-        "38.90000,-77.00000,-64,1325,0,0,0,0"
-    )
-    assert line(ON_GROUND, MIDDAY) == (
-        "MSG,2,1,1,A1B2C3,1,2026/03/01,12:00:01.500,2026/03/01,12:00:01.500,AAL123,,450,90,"
-        "38.90000,-77.00000,-64,1325,0,0,0,-1"
-    )
+def basestation(report: AdsbReport) -> list[str]:
+    """Lines of a report, with a bar for the address and the times, which all of them have."""
+    head = ",1,1,A1B2C3,1,2026/03/01,12:00:01.500,2026/03/01,12:00:01.500,"
+    return [line.replace(head, "|") for line in bridge("sbs1.py")["lines"](report, MIDDAY)]
+
+
+def test_a_report_becomes_basestation_lines_with_the_fields_of_their_types() -> None:
+    assert basestation(REPORT) == [
+        "MSG,1|AAL123,,,,,,,,,,,",
+        "MSG,6|,35000,,,,,,1325,0,0,0,0",
+        "MSG,4|,,450,90,,,-64,,,,,",
+        "MSG,3|,35000,,,38.90000,-77.00000,,,0,0,0,0",
+    ]
+    assert basestation(ON_GROUND) == [
+        "MSG,1|AAL123,,,,,,,,,,,",
+        "MSG,6|,,,,,,,1325,0,0,0,-1",
+        "MSG,2|,,450,90,38.90000,-77.00000,,,,,,-1",
+    ]
 
 
 def test_an_emergency_sets_the_flags_of_a_basestation_line() -> None:
     report = REPORT.model_copy(update={"squawk": "7700", "emergency": "general"})
-    assert bridge("sbs1.py")["line"](report, MIDDAY).endswith(",7700,-1,-1,0,0")
+    assert "MSG,6|,35000,,,,,,7700,-1,-1,0,0" in basestation(report)
 
 
 def test_a_basestation_line_has_no_minus_zero_and_no_360_degrees() -> None:
     report = REPORT.model_copy(
         update={"track_deg": 359.7, "vertical_rate_fpm": -0.1, "latitude_deg": -1e-7}
     )
-    fields = bridge("sbs1.py")["line"](report, MIDDAY).split(",")
-    assert (fields[13], fields[14], fields[16]) == ("0", "0.00000", "0")
+    assert basestation(report)[2:] == [
+        "MSG,4|,,450,0,,,0,,,,,",
+        "MSG,3|,35000,,,0.00000,-77.00000,,,0,0,0,0",
+    ]
 
 
 def test_the_first_time_of_a_run_is_now_and_the_others_follow_it() -> None:
@@ -148,6 +176,23 @@ class TestGdl90:
         assert first == [(10, "a1b2c3"), (20, "a4d5e6")]
         assert second == [(10, "a1b2c3")]
 
+    def test_an_ownship_that_is_silent_for_five_seconds_has_no_valid_position(self) -> None:
+        traffic = bridge("gdl90.py")["Traffic"]("a1b2c3")
+        traffic.hear(REPORT)
+        seconds = [list(traffic.messages(MIDDAY)) for _ in range(6)]
+        traffic.hear(REPORT)
+        seconds.append(list(traffic.messages(MIDDAY)))
+        assert [heartbeat[1] >> 7 for heartbeat, _ in seconds] == [1, 1, 1, 1, 1, 0, 1]
+        (_, valid), (_, silent) = seconds[4:6]
+        assert silent == valid[:5] + bytes(6) + valid[11:13] + bytes([valid[13] & 0xF]) + valid[14:]
+
+    def test_an_ownship_that_never_comes_is_named(self) -> None:
+        traffic = bridge("gdl90.py")["Traffic"]("a1b2c3")
+        traffic.hear(OTHER)
+        assert traffic.missing().startswith("no report of a1b2c3 yet")
+        traffic.hear(REPORT)
+        assert traffic.missing() is None
+
 
 class TestFlightGear:
     """Places of fields are those of net_fdm.hxx of FlightGear 2020.3, version 24."""
@@ -176,6 +221,13 @@ class TestFlightGear:
         aircraft.read(INSTRUMENTS.model_copy(update={"callsign": "UAL7", "flaps": 0.1}))
         aircraft.read(INSTRUMENTS)
         assert wheels_and_flaps(aircraft.packet(TRUTH)) == (1.0, 0.75)
+
+    def test_an_aircraft_that_never_comes_is_named(self) -> None:
+        aircraft = bridge("flightgear.py")["Aircraft"]("TYPO")
+        aircraft.packet(TRUTH)
+        assert aircraft.missing().startswith("no report of TYPO yet")
+        aircraft.packet(TRUTH.model_copy(update={"actor": "TYPO"}))
+        assert aircraft.missing() is None
 
     def test_only_the_chosen_aircraft_is_shown_until_the_run_ends(self) -> None:
         with ExitStack() as stack:
@@ -257,9 +309,28 @@ class TestFeed:
                     feed.send(b"lost\n")
                     time.sleep(0.01)
 
-    def test_what_is_no_address_is_refused(self) -> None:
-        with pytest.raises(BusError, match="expected HOST:PORT"):
-            Feed().connect("30004")
+    @pytest.mark.parametrize("address", ["30004", "127.0.0.1:99999", "..:3", "no such host:3"])
+    def test_what_is_no_address_is_refused(self, address: str) -> None:
+        with pytest.raises(BusError, match="--to"):
+            Feed().connect(address)
+
+    def test_a_program_that_does_not_answer_is_told_once_and_connected_to_when_it_does(
+        self, port: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        monkeypatch.setattr("airhilt.bus.bridge.RETRY_S", 0.01)
+        feed, told = Feed(), []
+
+        def is_told() -> bool:
+            told.extend(capsys.readouterr().err.splitlines())
+            return any(f"127.0.0.1:{port}" in line for line in told)
+
+        feed.connect(f"127.0.0.1:{port}")
+        wait_until(is_told)
+        time.sleep(0.1)
+        with socket.create_server(("127.0.0.1", port)):
+            wait_until(lambda: fed(feed) == 1)
+        assert is_told()
+        assert sum(f"127.0.0.1:{port}" in line for line in told) == 1
 
     def test_datagrams_for_a_host_that_cannot_be_are_refused(self) -> None:
         with pytest.raises(BusError, match="--to"):
@@ -276,6 +347,77 @@ def wait_until(is_true: Callable[[], bool]) -> None:
     while not is_true():
         assert time.monotonic() < deadline
         time.sleep(0.01)
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("beast.py", ["--to", "127.0.0.1:99999"]),
+        ("gdl90.py", ["--ownship", "AAL123"]),
+        ("sbs_in.py", ["--from", ".."]),
+    ],
+)
+def test_a_target_that_cannot_be_is_one_line_and_exit_code_2(name: str, given: list[str]) -> None:
+    done = subprocess.run(
+        [*command(name, free_endpoint(), 30003), *given],
+        capture_output=True, text=True, timeout=LONG_S,
+    )  # fmt: skip
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert given[0] in line
+
+
+def connected_to(bus: Bus) -> Namespace:
+    return options(None, 1).parse_args(["--connect", bus.endpoint])
+
+
+def test_a_feed_that_fails_ends_its_bridge_with_an_error() -> None:
+    def feed(_publish: Publish) -> None:
+        raise KeyError("no such frame")
+
+    with bus_of_a_run("operator") as bus, pytest.raises(BusError, match="no such frame"):
+        relay(connected_to(bus), {}, feed=feed)
+
+
+def test_what_is_still_missing_after_a_while_is_told(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("airhilt.bus.bridge.SILENCE_S", 0.1)
+    told: list[str] = []
+    with bus_of_a_run() as bus, ThreadPoolExecutor() as pool:
+        relaying = pool.submit(
+            relay, connected_to(bus), {}, missing=lambda: "no report of AAL123 yet"
+        )
+
+        def is_told() -> bool:
+            told.extend(capsys.readouterr().err.splitlines())
+            return "no report of AAL123 yet" in told
+
+        def is_over() -> bool:
+            end = Clock(run="run", phase="finished", pace="1x")
+            bus.put("clock", end.model_dump_json().encode())
+            return relaying.done()
+
+        wait_until(is_told)
+        wait_until(is_over)
+
+
+def test_radars_have_data_sources_in_the_order_of_their_names_and_a_line_each() -> None:
+    blocks = bridge("asterix.py")["Blocks"]()
+    north, south = (
+        RadarInfo(
+            site=site, kind="terminal", latitude_deg=38.9, longitude_deg=-77.0, altitude_m=30.0,
+            rotation_s=5.0, primary_range_m=1e5, secondary_range_m=4e5,
+        )
+        for site in ("north", "south")
+    )  # fmt: skip
+    assert list(blocks.number([south, north])) == [
+        "radar north: data source 0/3, antenna at 38.900000 -77.000000, 30 m",
+        "radar south: data source 0/4, antenna at 38.900000 -77.000000, 30 m",
+    ]
+    plot = RadarPlot(site="south", kind="primary", t_plot_ns=0, range_m=1.0, azimuth_deg=0.0)
+    (block,) = blocks.of_plot(plot)
+    assert block[4:6] == bytes([0, 4])
 
 
 @pytest.mark.parametrize("name", ON_TCP)
@@ -401,8 +543,8 @@ def test_bridges_beside_a_run_leave_its_log_as_it_is_even_if_one_hangs(
     encounter: Scenario, tmp_path: Path
 ) -> None:
     """Clients of the others never read, but for one of each."""
-    options: dict[str, Any] = {"seed": 3, "latency": "fixed", "share_truth": True, "report": False}
-    alone = run(encounter, out=tmp_path / "alone", **options)
+    settings: dict[str, Any] = {"seed": 3, "latency": "fixed", "share_truth": True, "report": False}
+    alone = run(encounter, out=tmp_path / "alone", **settings)
     endpoint = free_endpoint()
     with ExitStack() as stack:
         router = stack.enter_context(router_of_others())
@@ -427,7 +569,7 @@ def test_bridges_beside_a_run_leave_its_log_as_it_is_even_if_one_hangs(
             clients[name] = stack.enter_context(connected(ports[name]))
         observer = UntilAllHear(clients, programs["sbs1.py"])
         beside = run(
-            encounter, out=tmp_path / "beside", endpoint=endpoint, observer=observer, **options
+            encounter, out=tmp_path / "beside", endpoint=endpoint, observer=observer, **settings
         )
         programs["sbs1.py"].send_signal(signal.SIGCONT)
         codes = {name: program.wait(timeout=LONG_S) for name, program in programs.items()}

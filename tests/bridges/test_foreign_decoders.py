@@ -15,10 +15,15 @@ from airhilt.host import library
 from airhilt.messages import EMERGENCY_STATES, ActorTruth, AdsbReport, RadarPlot
 from airhilt.surveillance import cpr
 from airhilt.surveillance.mode_s_frames import FrameSource
+from airhilt.surveillance.transponders import EMERGENCY_CODES
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from reports import reports
 
 pytestmark = pytest.mark.decoders
+TRACK_CATEGORIES = {
+    "A1": 1, "A2": 3, "A3": 3, "A4": 3, "A5": 5, "A6": 6, "A7": 10, "B1": 11, "B2": 12, "B3": 16,
+    "B4": 15, "B6": 13, "B7": 14, "C1": 20, "C2": 21, "C3": 22,
+}  # fmt: skip
 METRES_PER_DEGREE = 60.0 * NAUTICAL_MILE
 
 
@@ -64,6 +69,12 @@ class TestWithPyModeS:
         }
         if "emergency_state" in read:
             assert EMERGENCY_STATES[read["emergency_state"]] == report.emergency
+        alert = report.squawk in EMERGENCY_CODES
+        if read["df"] != 18:
+            statuses = {"capability": 7, "flight_status": 3 if report.on_ground else 2}
+            assert all((read.get(key, code) == code) >= alert for key, code in statuses.items())
+            assert all((read.get(key) == code) <= alert for key, code in statuses.items())
+            assert read.get("surveillance_status", alert) == alert
         if "latitude" in read:
             north, east = steps_deg(report)
             assert abs(read["latitude"] - report.latitude_deg) <= north * 1.01
@@ -96,6 +107,8 @@ class TestWithAsterixDecoder:
         assert EMERGENCY_STATES[adsb["I200"]["PS"]] == report.emergency
         assert EMERGENCY_STATES[track["I380"]["SAB"]["STAT"]] == report.emergency
         assert bool(adsb["I040"]["GBS"]) == bool(track["I380"]["SAB"]["GBS"]) == report.on_ground
+        category = report.emitter_category or "A0"
+        assert track["I380"].get("EMC", {}).get("ECAT") == TRACK_CATEGORIES.get(category)
         assert (adsb["I040"]["SIM"], track["I080"]["SIM"]) == (1, 1)
         quality = adsb["I090"]
         assert (

@@ -56,6 +56,7 @@ TRUTH = ActorTruth(
     longitude_deg=-77.0, altitude_m=10_668.0, height_agl_m=10_600.0, velocity_north_m_s=-3.0,
     velocity_east_m_s=231.5, velocity_down_m_s=2.0, heading_deg=91.0,
 )  # fmt: skip
+ON_GROUND = REPORT.model_copy(update={"icao24": "a4d5e6", "altitude_ft": None, "on_ground": True})
 ADVISORY = Advisory(
     id="simple-1", revision=0, recipient="AAL123", recipients=("AAL123",),
     kind="loss_of_separation", severity=Severity.WARNING, traffic=("AAL123", "UAL7"),
@@ -83,6 +84,7 @@ DETECTIONS = Detections(
 )  # fmt: skip
 MESSAGES: dict[str, tuple[BaseModel, bytes | None]] = {
     "adsb/a1b2c3": (REPORT, None),
+    "adsb/a4d5e6": (ON_GROUND, None),
     "truth/state/AAL123": (TRUTH, None),
     "advisory/AAL123": (ADVISORY, None),
     "equipment/tcas/AAL123": (ALERT, None),
@@ -173,7 +175,7 @@ def heard() -> Iterator[dict[str, list[Any]]]:
         bridge = subprocess.Popen(program(bus.endpoint, port))
         client = Client(stack.enter_context(connected(port)))
         deadline = time.monotonic() + LONG_S
-        while len(client.heard) < 6 or len(client.heard["/log"]) < 3:
+        while len(client.heard) < 7 or len(client.heard["/log"]) < 3:
             assert time.monotonic() < deadline
             for key, (message, raw) in MESSAGES.items():
                 text = message.model_dump_json().encode()
@@ -194,6 +196,10 @@ def test_a_report_is_a_fix_with_a_velocity_and_the_callsign(heard: dict[str, lis
     assert {pair.key: pair.value for pair in fix.metadata} == {
         "callsign": "AAL123", "squawk": "1325", "emergency": "none", "category": "A3",
     }  # fmt: skip
+
+
+def test_an_altitude_that_is_not_known_is_no_number(heard: dict[str, list[Any]]) -> None:
+    assert math.isnan(heard["/adsb/a4d5e6"][-1].altitude)
 
 
 def test_the_truth_of_a_run_that_shares_it_is_a_fix_of_its_own(

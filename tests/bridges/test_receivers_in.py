@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import random
 import runpy
 import socket
 import subprocess
 import sys
 import threading
+from collections.abc import Iterable
 from contextlib import closing, suppress
+from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -17,14 +20,18 @@ import pytest
 import airhilt
 from airhilt.bus import free_endpoint
 from airhilt.host import library
-from airhilt.messages import AdsbReport, Event
+from airhilt.messages import AdsbReport, Event, LiveReport
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
+from airhilt.surveillance import mode_s
 from airhilt.surveillance.mode_s_frames import FrameSource
 from recorded import ADDRESS, CALLSIGN, reports, sbs_lines, turning_climb
 
 LONG_S = 120.0
 HAS_DECODER = find_spec("pyModeS") is not None
+needs_decoder = pytest.mark.skipif(
+    not HAS_DECODER, reason="no pyModeS: pip install airhilt[decoders]"
+)
 
 
 def bridge(name: str) -> dict[str, Any]:
@@ -56,7 +63,7 @@ def test_a_line_that_is_none_gives_no_report(line: str) -> None:
     assert list(bridge("sbs_in.py")["SbsFeed"]().reports(f"{line}\n".encode())) == []
 
 
-@pytest.mark.skipif(not HAS_DECODER, reason="no pyModeS: pip install airhilt[decoders]")
+@needs_decoder
 def test_frames_of_a_beast_feed_become_reports_of_what_was_sent() -> None:
     packet, source = bridge("beast.py")["packet"], FrameSource()
     sent = list(reports(turning_climb(10.0)))
@@ -70,6 +77,101 @@ def test_frames_of_a_beast_feed_become_reports_of_what_was_sent() -> None:
     assert last.latitude_deg == pytest.approx(sent[-1].latitude_deg, abs=0.005)
     assert last.ground_speed_kt == pytest.approx(440.0, abs=1.0)
     assert (last.nacp, last.nacv, last.sil) == (9, 2, 3)
+
+
+def heard(feed: Any, sent: Iterable[AdsbReport]) -> list[LiveReport]:
+    """Return what a Beast feed makes of the frames of reports."""
+    packet, source = bridge("beast.py")["packet"], FrameSource()
+    frames = ((frame, one.t_adsb_in_ns) for one in sent for frame in source.frames(one))
+    return list(feed.reports(b"".join(packet(*each) for each in frames)))
+
+
+def changed(**values: Any) -> list[AdsbReport]:
+    return [each.model_copy(update=values) for each in reports(turning_climb(10.0))]
+
+
+@needs_decoder
+def test_every_integrity_of_a_beast_feed_is_that_of_what_was_sent() -> None:
+    for nic in range(12):
+        assert heard(bridge("beast_in.py")["BeastFeed"](), changed(nic=nic))[-1].nic == nic
+
+
+@needs_decoder
+@pytest.mark.parametrize(
+    ("squawk", "sent", "expected"),
+    [
+        ("7700", "general", "general"),
+        ("7700", "medical", "medical"),
+        ("7600", "none", "no_communications"),
+        ("1000", "minimum_fuel", "minimum_fuel"),
+        ("1000", "none", "none"),
+    ],
+)
+def test_an_emergency_of_a_beast_feed_is_kept(squawk: str, sent: str, expected: str) -> None:
+    feed = bridge("beast_in.py")["BeastFeed"]()
+    assert heard(feed, changed(squawk=squawk, emergency=sent))[-1].emergency == expected
+
+
+@pytest.mark.parametrize(("squawk", "emergency"), [("7700", "general"), ("1000", "none")])
+def test_an_emergency_of_an_sbs_feed_is_kept(squawk: str, emergency: str) -> None:
+    data = sbs_bytes().replace(b",1000,", f",{squawk},".encode())
+    *_, last = bridge("sbs_in.py")["SbsFeed"]().reports(data)
+    assert last.emergency == emergency
+
+
+@needs_decoder
+def test_frames_with_any_content_leave_a_beast_feed_alive() -> None:
+    """They are of another aircraft: all 32 type codes, with reserved values among them."""
+    packet, draw = bridge("beast.py")["packet"], random.Random(1)
+    feed = bridge("beast_in.py")["BeastFeed"]()
+    for code in range(32):
+        for _ in range(100):
+            message = code << 51 | draw.getrandbits(51)
+            frame = mode_s.extended_squitter(0xABCDEF, message, on_ground=False)
+            list(feed.reports(packet(frame, 0)))
+    assert heard(feed, changed())
+
+
+@needs_decoder
+def test_reserved_accuracies_are_unknown() -> None:
+    """An operational status with NACp 15, and velocities with NACv 7."""
+    last = heard(bridge("beast_in.py")["BeastFeed"](), changed(nacp=15, nacv=7))[-1]
+    assert (last.nacp, last.nacv) == (0, 0)
+
+
+@needs_decoder
+def test_a_feed_that_is_not_beast_is_told_once_and_a_beast_feed_is_heard_after_it(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    feed = bridge("beast_in.py")["BeastFeed"]()
+    for _ in range(3):
+        assert not list(feed.reports(sbs_bytes() * 10))
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "no Beast feed" in line
+    assert heard(feed, changed())
+
+
+@pytest.mark.parametrize(
+    ("sent", "callsign"), [("dlh9x", "DLH9X"), ("D-EABC", None), ("DLH9XLONG", None)]
+)
+def test_a_callsign_of_a_feed_has_the_characters_of_mode_s_or_is_none(
+    sent: str, callsign: str | None
+) -> None:
+    data = sbs_bytes().replace(CALLSIGN.encode(), sent.encode())
+    *_, last = bridge("sbs_in.py")["SbsFeed"]().reports(data)
+    assert last.callsign == callsign
+
+
+def test_lines_of_the_sbs1_bridge_become_the_reports_that_were_sent() -> None:
+    lines = bridge("sbs1.py")["lines"]
+    sent = changed(squawk="7700", emergency="general")
+    when = datetime(2026, 3, 1, tzinfo=UTC)
+    data = "".join(f"{line}\r\n" for one in sent for line in lines(one, when)).encode()
+    found = list(bridge("sbs_in.py")["SbsFeed"]().reports(data))
+    told = ("callsign", "altitude_ft", "ground_speed_kt", "track_deg", "squawk", "emergency")
+    assert [one.model_dump(include={*told}) for one in found] == [
+        one.model_dump(include={*told}) for one in sent
+    ]
 
 
 def test_lines_that_cannot_be_read_are_left_out_and_the_others_are_heard() -> None:

@@ -40,7 +40,7 @@ def reports(draw: st.DrawFn) -> AdsbReport:
         ground_speed_kt=speed_kt,
         track_deg=track_deg,
         vertical_rate_fpm=0.0 if on_ground else 64.0 * draw(st.integers(-500, 500)),
-        squawk=draw(st.from_regex(r"[0-7]{4}", fullmatch=True)),
+        squawk=draw(st.from_regex(r"[0-7]{4}", fullmatch=True) | st.just("7700")),
         emergency=draw(st.sampled_from(EMERGENCY_STATES)),
         nic=draw(st.integers(0, 11)),
         sil=draw(st.integers(0, 3)),

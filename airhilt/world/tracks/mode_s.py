@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from airhilt.messages import EMERGENCY_STATES
+from airhilt.surveillance.mode_s import airborne_integrity
 from airhilt.world.tracks.record import Row, TracksError
 
 EXTENDED_SQUITTERS = (17, 18)
 """Downlink formats of ADS-B."""
-IDENTIFICATION, SURFACE_POSITION = "0,8", "0,6"
+IDENTIFICATION, SURFACE_POSITION, AIRBORNE_POSITION = "0,8", "0,6", "0,5"
 """Registers of the transponder that extended squitters have (DO-260B, 2.2.3.2)."""
 CATEGORY_SETS = {4: "A", 3: "B", 2: "C", 1: "D"}
 """Sets of emitter categories by the type code of the identification (DO-260B, 2.2.3.2.5.2)."""
@@ -53,13 +55,17 @@ class FrameDecoder:
                 ("nacp", "nac_p"),
                 ("nacv", "nac_v"),
                 ("sil", "sil"),
+                ("supplement_a", "nic_supplement_a"),
             )
             if found.get(key) is not None
         }
+        if (state := found.get("emergency_state", len(EMERGENCY_STATES))) < len(EMERGENCY_STATES):
+            said["emergency"] = EMERGENCY_STATES[state]
         if found.get("bds") == IDENTIFICATION:
             said["category"] = f"{CATEGORY_SETS[found['typecode']]}{found['category']}"
         if found.get("latitude") is None or found.get("longitude") is None:
             return None
+        is_airborne = found.get("bds") == AIRBORNE_POSITION
         return said | {
             "icao24": address,
             "t_s": t_s,
@@ -67,4 +73,9 @@ class FrameDecoder:
             "longitude_deg": found["longitude"],
             "altitude_ft": found.get("altitude"),
             "on_ground": found.get("bds") == SURFACE_POSITION,
+            "nic": airborne_integrity(
+                found["typecode"], said.get("supplement_a", 0), found["nic_b"]
+            )
+            if is_airborne
+            else 0,
         }

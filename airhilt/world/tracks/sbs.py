@@ -13,6 +13,10 @@ from airhilt.world.tracks.record import MOST_BYTES, Format, Row
 CALLSIGN, SURFACE, AIRBORNE, VELOCITY, SQUAWK = "1", "2", "3", "4", "6"
 """Types of transmission."""
 FIELDS = 22
+EMERGENCY = 19
+"""Place of the flag of an emergency."""
+SET = ("-1", "1")
+"""Values of a flag that is set."""
 
 
 class SbsLines:
@@ -39,6 +43,8 @@ class SbsLines:
             )
             if cells[place]
         }
+        if cells[EMERGENCY]:
+            said["emergency"] = "general" if cells[EMERGENCY] in SET else "none"
         if sort not in (SURFACE, AIRBORNE) or not (cells[14] and cells[15]):
             return None
         return said | {
@@ -47,7 +53,7 @@ class SbsLines:
             "latitude_deg": cells[14],
             "longitude_deg": cells[15],
             "altitude_ft": cells[11],
-            "on_ground": sort == SURFACE or cells[21] in ("-1", "1"),
+            "on_ground": sort == SURFACE or cells[21] in SET,
         }
 
 
