@@ -66,6 +66,29 @@ def add_host(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _subscribed(
+    session: zenoh.Session,
+    prefix: str,
+    heard: Mapping[str, Callable[[bytes], None]],
+    heard_raw: Mapping[str, Callable[[bytes, bytes], None]],
+) -> list[zenoh.Subscriber[None]]:
+    """Return subscribers that hand the messages of a run on, as `relay` says."""
+
+    def forward(call: Callable[[bytes], None]) -> Callable[[zenoh.Sample], None]:
+        return lambda sample: call(sample.payload.to_bytes())
+
+    def forward_raw(call: Callable[[bytes, bytes], None]) -> Callable[[zenoh.Sample], None]:
+        def hear(sample: zenoh.Sample) -> None:
+            if sample.attachment is not None:
+                call(sample.attachment.to_bytes(), sample.payload.to_bytes())
+
+        return hear
+
+    calls = {key: forward(call) for key, call in heard.items()}
+    calls |= {key: forward_raw(call) for key, call in heard_raw.items()}
+    return [session.declare_subscriber(f"{prefix}/{key}", call) for key, call in calls.items()]
+
+
 def relay(
     given: argparse.Namespace,
     heard: Mapping[str, Callable[[bytes], None]],
@@ -102,18 +125,6 @@ def relay(
     role: Role = "observer" if feed is None else "operator"
     session = connect_client(given.connect, PATIENCE_S, given.tls, role)
 
-    def forward(call: Callable[[bytes], None]) -> Callable[[zenoh.Sample], None]:
-        return lambda sample: call(sample.payload.to_bytes())
-
-    def forward_raw(call: Callable[[bytes, bytes], None]) -> Callable[[zenoh.Sample], None]:
-        def hear(sample: zenoh.Sample) -> None:
-            if sample.attachment is not None:
-                call(sample.attachment.to_bytes(), sample.payload.to_bytes())
-
-        return hear
-
-    calls = {key: forward(call) for key, call in heard.items()}
-    calls |= {key: forward_raw(call) for key, call in (heard_raw or {}).items()}
     try:
         prefix = find_run(session, PATIENCE_S, given.run)
     except BusError:
@@ -122,9 +133,7 @@ def relay(
     for key, take in (told or {}).items():
         replies = session.get(f"{prefix}/{key}", timeout=1.0)
         take([reply.ok.payload.to_bytes() for reply in replies if reply.ok is not None])
-    subscribers = [
-        session.declare_subscriber(f"{prefix}/{key}", call) for key, call in calls.items()
-    ]
+    subscribers = _subscribed(session, prefix, heard, heard_raw or {})
     if missing is not None:
         late = threading.Timer(SILENCE_S, lambda: tell(missing()))
         late.daemon = True

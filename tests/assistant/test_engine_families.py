@@ -355,7 +355,7 @@ def test_an_error_names_all_forms_and_the_nearest_name(monkeypatch: pytest.Monke
         DETECTORS.create("embeded")
     assert str(caught.value) == (
         "detector 'embeded': there is none of that name; expected embedded, embedded:FILE.onnx, "
-        "yolo:FILE, or the address of a service; did you mean 'embedded'?"
+        "onnx:FILE, yolo:FILE, or the address of a service; did you mean 'embedded'?"
     )
 
 
