@@ -151,4 +151,4 @@ GENERATED = {
     "messages.md": messages,
     "python-api.md": python_api,
 }
-"""What makes the end of each page that is made from the code."""
+"""Functions that make the end of pages from the code, by the path of the page."""

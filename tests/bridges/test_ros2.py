@@ -119,7 +119,7 @@ def types() -> Any:
 
 @dataclass
 class Heard:
-    """What a subscriber to everything of the domain has heard."""
+    """Samples and tokens that a subscriber to the whole domain has heard."""
 
     messages: defaultdict[str, list[Any]] = field(default_factory=lambda: defaultdict(list))
     """Messages, read back by their type, by topic."""
@@ -159,7 +159,7 @@ def program(endpoint: str, router: str) -> list[str]:
 
 @pytest.fixture(scope="module")
 def heard() -> Heard:
-    """What a subscriber of ROS 2 heard of a run."""
+    """Messages of a run that a subscriber of ROS 2 heard."""
     store, heard = types(), Heard()
     with ExitStack() as stack:
         bus = stack.enter_context(bus_of_a_run())

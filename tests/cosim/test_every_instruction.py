@@ -179,7 +179,7 @@ def faults(
 
 @dataclass(frozen=True)
 class Answer:
-    """What somebody says and does after a call."""
+    """Answer and acts of somebody after a call."""
 
     callsign: str
     said: Sequence[str]
@@ -188,7 +188,7 @@ class Answer:
 
     @cached_property
     def words(self) -> str:
-        """What it says to the tower without what it refuses."""
+        """Words to the tower without those of a refusal."""
         answers = list(self.said)
         for refused in self.refused:
             answers = [each.replace(refused, "") for each in answers]

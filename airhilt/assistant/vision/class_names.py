@@ -58,12 +58,12 @@ class HasClassMap(Protocol):
 
     @property
     def classes(self) -> ClassMap:
-        """What its classes are called here."""
+        """Labels of the classes of its model."""
 
 
 @dataclass(frozen=True)
 class ClassMap:
-    """What the classes of a model are called here.
+    """Labels of the classes of a model.
 
     Attributes
     ----------
@@ -117,7 +117,7 @@ class ClassMap:
 
     @property
     def configuration(self) -> dict[str, object]:
-        """What a worker tells of it."""
+        """Part of the configuration of a worker that says which classes it tells and drops."""
         kept = {self.names[number]: label for number, label in self.labels.items()}
         return {"classes": kept, "dropped_classes": list(self.dropped)}
 

@@ -1,4 +1,4 @@
-"""How the detectors that people export as ONNX give their findings: one reader a family.
+"""Readers of the outputs of detectors that people export as ONNX, one for each family.
 
 A family is recognised by the inputs and outputs of the network, and by what it answers to a grey
 picture; names count only where shapes leave it open.

@@ -146,7 +146,7 @@ class Order:
     part_of: Instruction | None = None
     """Clearance in the same call that has it as a detail; it is done or refused with that."""
     alone: Command | None = None
-    """What is done of it if that clearance is refused; None: nothing."""
+    """Order that is left of it if that clearance is refused; None: nothing."""
 
     @property
     def rank(self) -> int:

@@ -39,7 +39,7 @@ HIGH_FT = 20_000.0
 
 @dataclass(frozen=True)
 class Wanted:
-    """What of the traffic becomes a scenario, and how.
+    """Choice of the traffic that becomes a scenario, and of its form.
 
     Attributes
     ----------

@@ -73,7 +73,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Takes:
-    """How pictures are taken of random worlds.
+    """Settings of the pictures of random worlds.
 
     Attributes
     ----------
