@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from airhilt.imaging.view import Intrinsics, Pose, View
+from airhilt.imaging.view import NEAR_M, Intrinsics, Pose, View
 from airhilt.sensors.cameras.renderers import Part, open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.layers import by_sample
@@ -20,7 +20,9 @@ from airhilt.world.flight.aircraft_type import load_aircraft_type
 from breadth import examples
 
 SAMPLES = 6
-"""Samples along each side of a pixel: what is thinner than a sixth of a pixel may fall between."""
+"""Samples along each side of a pixel."""
+POINTS = 400
+"""Points along each edge of a body."""
 SHAPES = {
     kind: next(iter(aircraft_meshes(load_aircraft_type(kind), coarse=True).values()))
     for kind in ("c172p", "737")
@@ -33,10 +35,22 @@ VIEW = View(LENS, Pose.of((0.0, 0.0, 10.0), 0.0))
 angles = st.floats(-3.1, 3.1)
 
 
-def rastered(kind: str, pose: Pose) -> Box:
-    """Return the box about the pixels of which any sample shows the body."""
+def shown(kind: str, pose: Pose) -> Box:
+    """Return the box about the pixels that show the body, or in which a point of an edge lies.
+
+    Pixels show the faces and lose what is thinner than lies between two samples, as tips of wings
+    from the side are; points along the edges have those.
+    """
     (drawn,) = RENDERER.parts(VIEW, [Part(kind, pose, VIEW.whole, SAMPLES)])
     covered = np.isfinite(by_sample(drawn.distance_m, SAMPLES)).any(axis=0)
+    outline = OUTLINES[kind]
+    corners = VIEW.in_camera(outline.points @ pose.rotation.T + np.asarray(pose.position_m))
+    start, end = corners[outline.edges[:, 0]], corners[outline.edges[:, 1]]
+    along = np.linspace(0.0, 1.0, POINTS)[:, None, None]
+    points = (start + along * (end - start)).reshape(-1, 3)
+    columns, rows = np.floor(VIEW.pixels(points[points[:, 2] >= NEAR_M])).astype(int).T
+    inside = (columns >= 0) & (columns < LENS.width_px) & (rows >= 0) & (rows < LENS.height_px)
+    covered[rows[inside], columns[inside]] = True
     rows, columns = np.nonzero(covered)
     if not len(rows):
         return Box(0.0, 0.0, 0.0, 0.0)
@@ -64,9 +78,7 @@ def test_a_body_at_the_border_has_the_box_of_its_pixels(
     east, north, up = (float(metres * part) for part in towards)
     pose = Pose.of((east, north, up + 10.0), heading, pitch, roll)
     projected = OUTLINES[kind].seen(pose, VIEW)
-    # Nearer, parts are drawn that lie before the near plane; farther away, wings from the side are
-    # thinner than what lies between two samples.
-    drawn = rastered(kind, pose)
+    drawn = shown(kind, pose)
     if projected is None:
         assert drawn.area == 0.0
         return
