@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.shapes.material import Material
+
 Floats = npt.NDArray[np.float32]
 Colour = tuple[float, float, float]
 Paint = Callable[[Floats], Floats]
@@ -44,11 +46,13 @@ class Mesh:
     """Light that each triangle gives off at night, times its colour; shape (n,)."""
     sunlit: Floats
     """Share of the direct sun that reaches each triangle, shape (n,)."""
+    material: Floats
+    """Number of the `Material` of each triangle, shape (n,)."""
 
     @property
-    def arrays(self) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+    def arrays(self) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
         """All arrays, in the order of the attributes."""
-        return self.corners, self.normals, self.colours, self.glow, self.sunlit
+        return self.corners, self.normals, self.colours, self.glow, self.sunlit, self.material
 
     def __len__(self) -> int:
         return len(self.corners)
@@ -76,7 +80,8 @@ class Mesh:
         faces, corners, across = faces[proper], corners[proper], across[proper]
         colours = np.broadcast_to(np.asarray(colour, dtype=np.float32), (len(proper), 3))[proper]
         ones = np.ones(len(faces), dtype=np.float32)
-        return cls(corners, _smooth(points, faces, across, crease_rad), colours, glow * ones, ones)
+        normals = _smooth(points, faces, across, crease_rad)
+        return cls(corners, normals, colours, glow * ones, ones, Material.PAINT * ones)
 
     def part(self, wanted: npt.NDArray[np.bool_]) -> Mesh:
         """Return those triangles for which ``wanted`` is true."""
@@ -105,6 +110,10 @@ class Mesh:
         return replace(
             self, corners=(self.corners * flip)[:, ::-1], normals=(self.normals * flip)[:, ::-1]
         )
+
+    def made_of(self, material: Material) -> Mesh:
+        """Return the mesh in one material."""
+        return replace(self, material=np.full(len(self), material, dtype=np.float32))
 
     @property
     def face_normals(self) -> Floats:

@@ -96,6 +96,7 @@ from airhilt.scenario.models.sensors import (
     Camera,
     CameraName,
     FixedMount,
+    Imaging,
     Radar,
     SurfaceSurveillance,
 )

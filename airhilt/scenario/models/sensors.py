@@ -34,6 +34,37 @@ class ActorMount(Model):
     station: Literal["nose", "tail"] = "nose"
 
 
+class Imaging(Model):
+    """What a camera's lens, sensor and coder do to its pictures.
+
+    Noise that changes from picture to picture is off: coders of cameras remove most of it.
+    """
+
+    exposure_ev: Number = Field(
+        default=0.0, ge=-4.0, le=4.0, description="light against that of a good exposure, log 2"
+    )
+    vignetting: Share = Field(
+        default=0.3,
+        description="share of the fourth power of the cosine, by which light falls off from the "
+        "axis, that the lens leaves",
+    )
+    blur_px: Number = Field(
+        default=0.5, ge=0.0, le=4.0, description="deviation of what a point becomes"
+    )
+    fixed_pattern: Number = Field(
+        default=0.005,
+        ge=0.0,
+        le=0.1,
+        description="deviation of pixels' sensitivities (EMVA 1288: photo response non-uniformity)",
+    )
+    noise_levels: Number = Field(
+        default=0.0, ge=0.0, le=50.0, description="deviation of the noise, of 255 levels"
+    )
+    jpeg_quality: Annotated[int, Field(ge=1, le=100)] | None = Field(
+        default=None, description="quality of JPEG, by which pictures are coded and decoded"
+    )
+
+
 class Camera(Model):
     """A camera: its mount, its optics and its exposure times."""
 
@@ -46,6 +77,7 @@ class Camera(Model):
     phase_s: Number = Field(
         default=0.0, ge=0.0, lt=1.0, description="end of its first exposure after the start"
     )
+    imaging: Imaging = Imaging()
 
     @property
     def carrier(self) -> str | None:

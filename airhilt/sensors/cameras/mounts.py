@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from airhilt.errors import CameraError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.host.library import nearest
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import ActorMount, AircraftSpec
+from airhilt.scenario.models import ActorMount, AircraftSpec, Imaging
 from airhilt.scenario.models import Camera as DeclaredCamera
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.units import DEGREE, FOOT
@@ -46,6 +46,7 @@ class Camera:
     name: str
     intrinsics: Intrinsics
     at: Pose | Mount
+    imaging: Imaging = field(default_factory=Imaging)
 
     @property
     def is_fixed(self) -> bool:
@@ -130,10 +131,10 @@ def _camera(
     mount = declared.mount
     if isinstance(mount, ActorMount):
         at = station_mount(declared.name, mount.actor, mount.station, types.get(mount.actor))
-        return Camera(declared.name, lens, at)
+        return Camera(declared.name, lens, at, declared.imaging)
     place, height_m = site.place(mount.position), mount.height_ft * FOOT
     pose = _pose(site, place, height_m, mount.azimuth_deg, mount.elevation_deg)
-    return Camera(declared.name, lens, pose)
+    return Camera(declared.name, lens, pose, declared.imaging)
 
 
 def _pose(

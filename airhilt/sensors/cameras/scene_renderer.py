@@ -19,6 +19,7 @@ from airhilt.imaging.view import Pose, View
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame, Prospect
+from airhilt.sensors.cameras.image_sensor import ImageSensor
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
@@ -118,6 +119,10 @@ class SceneRenderer:
             else Background(self._renderer, supersampling)
             for camera in self.cameras.values()
         }
+        self._sensors = {
+            camera.name: ImageSensor(camera.name, camera.intrinsics, camera.imaging)
+            for camera in self.cameras.values()
+        }
         self._plain: dict[str, _Plain] = {}
         self._own: dict[str, _OwnAircraft] = {}
         self._streaks = {
@@ -186,7 +191,7 @@ class SceneRenderer:
         return CameraState(
             self._backgrounds[name].drawings if moves else (),
             None if own is None else own.body,
-            self._taken[name] if name in self._streaks else 0,
+            self._taken[name] if self._changes(name) else 0,
         )
 
     def resume(self, name: str, state: CameraState) -> None:
@@ -249,7 +254,7 @@ class SceneRenderer:
         spots = self._bodies.spots(view, lights, poses, camera.carrier)
         if not camera.is_fixed and self._light.needs_lights:
             spots.extend(self._fixed_lights.seen(view, self._light))
-        is_plain = not (drawn or shadows or spots or name in self._streaks)
+        is_plain = not (drawn or shadows or spots or self._changes(name))
         last = self._plain.pop(name, None)
         layers: list[Layer] = []
         unchanged = False
@@ -298,10 +303,15 @@ class SceneRenderer:
         if name in self._streaks:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
+        colour = self._sensors[name].expose(colour, self._taken[name])
         self._taken[name] += 1
         for plane in (colour, distance, instance):
             plane.flags.writeable = False  # Several frames may have it.
         return Frame(name, t_ns, view, colour, distance, instance, ()), layers
+
+    def _changes(self, name: str) -> bool:
+        """Return whether two pictures of the same differ, by rain or by noise."""
+        return name in self._streaks or self._sensors[name].has_noise
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the landscape, which are always on, into what is drawn once."""

@@ -12,15 +12,18 @@ from airhilt.shapes.aircraft.gear import gear
 from airhilt.shapes.aircraft.proportions import Proportions
 from airhilt.shapes.aircraft.spec import AircraftShape
 from airhilt.shapes.aircraft.surfaces import fin, strut, tailplane, wing
+from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Mesh, join
 
 
-def aircraft_meshes(aircraft: AircraftShape, *, coarse: bool = False) -> dict[str, Mesh]:
+def aircraft_meshes(
+    aircraft: AircraftShape, *, coarse: bool = False, livery: int = 0
+) -> dict[str, Mesh]:
     """Return the meshes of a type, ``clean`` and with its ``gear`` down.
 
-    Coarse ones are for pictures in which it is small.
+    Coarse ones are for pictures in which it is small. Liveries are counted from 0, again and again.
     """
-    p = Proportions.of(aircraft, coarse)
+    p = Proportions.of(aircraft, coarse, livery)
     right = [wing(p), tailplane(p)]
     parts = [fuselage(p), fin(p), *right, *(part.mirrored() for part in right)]
     parts += [engine(p, *place) for place in p.mesh.engines_m]
@@ -30,5 +33,5 @@ def aircraft_meshes(aircraft: AircraftShape, *, coarse: bool = False) -> dict[st
         parts.append(cabin(p))
     if p.is_high_wing:
         parts += [strut(p), strut(p).mirrored()]
-    clean = join(parts)
-    return {"clean": clean, "gear": join([clean, *gear(p)])}
+    meshes = {"clean": join(parts), "gear": join([*parts, *gear(p)])}
+    return {name: mesh.made_of(Material.SKIN) for name, mesh in meshes.items()}

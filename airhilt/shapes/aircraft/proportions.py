@@ -25,19 +25,39 @@ class Livery:
     engine: Colour
 
 
+_NAVY, _CRIMSON, _PINE = srgb(24, 62, 140), srgb(176, 28, 44), srgb(30, 70, 60)
+_PALE, _STEEL, _IVORY = srgb(196, 202, 210), srgb(176, 182, 190), srgb(240, 236, 222)
+_SAND, _TEAL, _AMBER, _NIGHT = (
+    srgb(222, 206, 170),
+    srgb(14, 122, 128),
+    srgb(236, 150, 30),
+    srgb(22, 30, 56),
+)
+_AIRLINES = (
+    Livery(WHITE, _PALE, _NAVY, _NAVY, SILVER, WHITE),
+    Livery(WHITE, _STEEL, _CRIMSON, srgb(28, 44, 96), SILVER, srgb(200, 204, 210)),
+    Livery(_NIGHT, _NIGHT, _AMBER, _AMBER, SILVER, _NIGHT),
+    Livery(SILVER, SILVER, _NAVY, _CRIMSON, SILVER, SILVER),
+    Livery(WHITE, WHITE, _TEAL, WHITE, _PALE, _TEAL),
+    Livery(_AMBER, _AMBER, WHITE, WHITE, SILVER, _AMBER),
+    Livery(_SAND, WHITE, _PINE, _SAND, SILVER, WHITE),
+    Livery(_TEAL, WHITE, _TEAL, WHITE, SILVER, _TEAL),
+)
+_OWNERS = (
+    Livery(WHITE, WHITE, srgb(180, 30, 34), srgb(180, 30, 34), WHITE, srgb(180, 30, 34)),
+    Livery(_IVORY, _PINE, _PINE, srgb(196, 150, 40), _IVORY, _PINE),
+    Livery(WHITE, WHITE, WHITE, _NAVY, WHITE, WHITE),
+    Livery(srgb(228, 196, 40), srgb(228, 196, 40), _NIGHT, _NIGHT, srgb(228, 196, 40), _NIGHT),
+    Livery(WHITE, _NAVY, _NAVY, WHITE, WHITE, _NAVY),
+    Livery(_SAND, _SAND, srgb(120, 52, 24), srgb(120, 52, 24), _SAND, _SAND),
+)
 LIVERIES = {
-    "jet": Livery(WHITE, srgb(196, 202, 210), srgb(24, 62, 140), srgb(24, 62, 140), SILVER, WHITE),
-    "heavy_jet": Livery(
-        WHITE, srgb(176, 182, 190), srgb(176, 28, 44), srgb(28, 44, 96), SILVER, srgb(200, 204, 210)
-    ),
-    "piston_single": Livery(
-        WHITE, WHITE, srgb(180, 30, 34), srgb(180, 30, 34), WHITE, srgb(180, 30, 34)
-    ),
-    "piston_twin": Livery(
-        srgb(240, 236, 222), srgb(30, 70, 60), srgb(30, 70, 60), srgb(196, 150, 40),
-        srgb(240, 236, 222), srgb(30, 70, 60),
-    ),
-}  # fmt: skip
+    "jet": _AIRLINES,
+    "heavy_jet": (*_AIRLINES[1:], _AIRLINES[0]),
+    "piston_single": _OWNERS,
+    "piston_twin": (*_OWNERS[1:], _OWNERS[0]),
+}
+"""Liveries by category; the first one is that of an aircraft of which no more is known."""
 
 
 @dataclass(frozen=True)
@@ -65,15 +85,16 @@ class Proportions:
     fuselage, those of others on the tail cone."""
 
     @classmethod
-    def of(cls, aircraft: AircraftShape, coarse: bool = False) -> Proportions:
+    def of(cls, aircraft: AircraftShape, coarse: bool = False, livery: int = 0) -> Proportions:
         """Return the proportions of an aircraft type."""
+        liveries = LIVERIES[aircraft.category]
         size, mesh = aircraft.dimensions, aircraft.mesh
         is_jet = aircraft.category in ("jet", "heavy_jet")
         radius = mesh.fuselage_diameter_m / 2.0
         fin_top = size.height_m - size.wheel_height_offset_m
         return cls(
             mesh=mesh,
-            livery=LIVERIES[aircraft.category],
+            livery=liveries[livery % len(liveries)],
             coarse=coarse,
             is_jet=is_jet,
             is_heavy=aircraft.category == "heavy_jet",

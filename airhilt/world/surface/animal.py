@@ -13,6 +13,7 @@ from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import VisibleClass
 from airhilt.shapes.animals import WING_BEATS
 from airhilt.shapes.appearance import Appearance
+from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Mesh
 from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.sim.streams import stream
@@ -103,11 +104,13 @@ class AnimalKind(CreatureKind, BaseModel):
 
     def appearance(self) -> Appearance:
         """Return its mesh on the ground, and those of a wing beat if it flies."""
-        meshes = {BODY: self.mesh(self.dimensions)}
+        meshes = {BODY: self.mesh(self.dimensions).made_of(Material.COAT)}
         flight = self.flight
         if flight is not None:
             for beat in range(WING_BEATS):
-                meshes[f"flying{beat}"] = flight.mesh(flight.dimensions, beat)
+                meshes[f"flying{beat}"] = flight.mesh(flight.dimensions, beat).made_of(
+                    Material.COAT
+                )
         return Appearance(meshes)
 
     def mesh_of(self, body: Creature, t_s: float) -> str:

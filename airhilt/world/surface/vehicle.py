@@ -12,6 +12,7 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import EmitterCategory, VisibleClass
 from airhilt.shapes.appearance import Appearance
+from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Mesh
 from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.shapes.vehicles import van
@@ -59,7 +60,9 @@ class VehicleKind(DrivenKind, BaseModel):
 
     def appearance(self) -> Appearance:
         """Return its mesh, with a beacon and headlamps."""
-        return vehicle_appearance(self.mesh(self.dimensions), self.dimensions)
+        return vehicle_appearance(
+            self.mesh(self.dimensions).made_of(Material.SKIN), self.dimensions
+        )
 
     def create(
         self,

@@ -15,7 +15,7 @@ import numpy as np
 
 from airhilt.errors import CameraError
 from airhilt.imaging.view import Intrinsics, Pose
-from airhilt.scenario.models import Daylight, Weather
+from airhilt.scenario.models import Daylight, Imaging, Weather
 from airhilt.sensors.cameras.mounts import Camera, station_mount
 from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, kind_model
 from airhilt.sensors.cameras.scene.builder import air_and_sun
@@ -50,6 +50,8 @@ KINDS: tuple[tuple[Callable[[str], Model], tuple[tuple[str, int, float], ...]], 
 )
 _HOURS = ((6.0, 90.0), (-6.0, 6.0), (-30.0, -6.0))
 """Elevations of the sun in degrees: day, twilight, night."""
+LIVERIES = 8
+"""Liveries that are drawn of each type of aircraft."""
 _COPIES = 3
 """Bodies of one kind in a picture, at most."""
 
@@ -102,6 +104,11 @@ class Casting:
             place: None if place == EN_ROUTE else load_layout(place) for place in places
         }
         self._models = {kind: make(kind) for make, group in KINDS for kind, *_ in group}
+        self._painted = {
+            (kind, livery): aircraft_model(kind, livery=livery)
+            for kind, *_ in AIRCRAFT
+            for livery in range(LIVERIES)
+        }
 
     def sitting(self, number: int, seed: int, purpose: str) -> Sitting:
         """Return a landscape with its cameras; places take turns.
@@ -122,7 +129,7 @@ class Casting:
             clouds = 0.6 * height if height > 700.0 and draws.random() < 0.7 else None
             landscape = open_country(light, f"{draws.integers(1 << 30)}", clouds)
         models = {
-            f"{kind}-{copy}": model
+            f"{kind}-{copy}": self._painted.get((kind, (number + copy) % LIVERIES), model)
             for kind, model in self._models.items()
             for copy in range(_COPIES)
         }
@@ -135,7 +142,7 @@ class Casting:
             station = "nose" if index % 5 < 3 else "tail"
             name = f"{station}-{index}"
             mount = station_mount(name, carrier, station, model.aircraft)
-            cameras[name] = Camera(name, self._lens(draws), mount)
+            cameras[name] = Camera(name, self._lens(draws), mount, _imaging(draws))
         if layout is not None:
             for index in range(FIXED_CAMERAS):
                 name = f"fixed-{index}"
@@ -160,7 +167,21 @@ class Casting:
                 landscape.require_free(name, pose.position_m)
             except CameraError:
                 continue
-            return Camera(name, self._lens(draws), pose)
+            return Camera(name, self._lens(draws), pose, _imaging(draws))
+
+
+def _imaging(draws: np.random.Generator) -> Imaging:
+    """Return lens, sensor and coder of a camera: good ones, and as often poor ones."""
+    if draws.random() < 0.5:
+        return Imaging()
+    return Imaging(
+        exposure_ev=float(np.clip(draws.normal(0.0, 0.5), -1.5, 1.5)),
+        vignetting=float(draws.uniform(0.0, 0.6)),
+        blur_px=float(draws.uniform(0.0, 1.1)),
+        fixed_pattern=float(draws.uniform(0.0, 0.015)),
+        noise_levels=float(np.exp(draws.uniform(np.log(0.5), np.log(8.0)))),
+        jpeg_quality=int(draws.integers(40, 96)) if draws.random() < 0.5 else None,
+    )
 
 
 def _weather(

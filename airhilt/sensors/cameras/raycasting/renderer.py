@@ -1,8 +1,8 @@
 """Pictures of what rays meet: all of the drawing that is the same for every ray caster.
 
-The landscape is a mosaic of plane pieces of one colour each. A ray is cast for every second pixel
-of every second row; where the four about a pixel meet the same piece, so does the pixel, and its
-distance follows from the plane. Only the other pixels cost rays of their own.
+The landscape is a mosaic of plane pieces of one colour and material each. A ray is cast for every
+second pixel of every second row; where the four about a pixel meet the same piece, so does the
+pixel, and its distance follows from the plane. Only the other pixels cost rays of their own.
 """
 
 from __future__ import annotations
@@ -25,14 +25,19 @@ from airhilt.sensors.cameras.scene.illumination import (
     encode,
     encode_levels,
 )
+from airhilt.sensors.cameras.scene.textures import DECK_M, TINT, deck, factors, on_surface
 from airhilt.shapes.mesh import Floats, Mesh
 
 Number = TypeVar("Number", bound=np.generic)
 Doubles = npt.NDArray[np.float64]
 Pieces = npt.NDArray[np.intp]
 """Numbers of pieces of the landscape."""
+Kinds = npt.NDArray[np.int32]
+"""Numbers of materials."""
 Glare = tuple[npt.NDArray[np.intp], Floats]
 """Samples in which light about the sun is, and the light, shape (3, n)."""
+Deck = tuple[npt.NDArray[np.intp], Floats]
+"""Samples in which the sky is, and the share of it that thin clouds hide."""
 MISSED = 0
 """Number of the piece that is the sky."""
 
@@ -43,6 +48,7 @@ class _Body:
     normals: Floats
     colours: Floats
     glow: Floats
+    material: Kinds
 
 
 class RayRenderer:
@@ -52,14 +58,21 @@ class RayRenderer:
         self._build = build
         self._light = light
         self._landscape = build(landscape.corners)
-        self._piece_of, self._normals, self._heights, colours = _pieces(landscape, light)
+        found = _pieces(landscape, light)
+        self._piece_of, self._normals, self._heights, colours, self._materials = found
         tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
         self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
         self._bodies: dict[str, _Body] = {}
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
         """Keep the shape of a body, to draw it by this name."""
-        self._bodies[name] = _Body(self._build(mesh.corners), mesh.normals, mesh.colours, mesh.glow)
+        self._bodies[name] = _Body(
+            self._build(mesh.corners),
+            mesh.normals,
+            mesh.colours,
+            mesh.glow,
+            mesh.material.astype(np.int32),
+        )
 
     def close(self) -> None:
         """Release the shapes."""
@@ -76,18 +89,20 @@ class RayRenderer:
         sky = pieces == MISSED
         glare = self._look_up(view, x, y, length, pieces, sky)
         # A plane n p = h is met at the depth h / (n d): its inverse is linear in the picture.
-        right, down, ahead = self._slopes(view, pieces)
+        (right, down, ahead), away = self._planes(view, pieces)
         inverse_depth = _of(right, pieces)
         inverse_depth *= x
         part = _of(down, pieces)
         part *= y
         inverse_depth += part
         inverse_depth += _of(ahead, pieces)
+        texture = self._texture(view, samples, x, y, length, inverse_depth, pieces, away)
         with np.errstate(divide="ignore"):
             distance = np.divide(length, inverse_depth, out=inverse_depth)
         left = np.exp(distance * np.float32(-self._light.background_extinction_per_m))
         np.copyto(left, np.float32(1.0), where=sky)
-        return Samples(self._colour_of(pieces, left, glare), distance)
+        deck = self._deck(view, samples, x, y, length, sky)
+        return Samples(self._colour_of(pieces, left, texture, deck, glare), distance)
 
     def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
         """Return bodies through the air, and shadows."""
@@ -100,7 +115,8 @@ class RayRenderer:
         size = directions.shape[1:]
         rotation = pose.rotation.astype(np.float32)
         origin = (np.asarray(view.pose.position_m) - np.asarray(pose.position_m)) @ pose.rotation
-        distance, faces, u, v = body.scene.hits(origin, rotation.T @ directions.reshape(3, -1))
+        ways = rotation.T @ directions.reshape(3, -1)
+        distance, faces, u, v = body.scene.hits(origin, ways)
         colour = np.zeros((len(distance), 3), dtype=np.uint8)
         hit = np.flatnonzero(np.isfinite(distance))
         if len(hit):
@@ -109,6 +125,9 @@ class RayRenderer:
             normals = np.einsum("nk,nki->ni", weights, body.normals[faces]) @ rotation.T
             normals /= np.linalg.norm(normals, axis=1, keepdims=True)
             lit = self._light.shade(body.colours[faces], normals)
+            place = origin.astype(np.float32)[:, None] + ways[:, hit] * distance[hit]
+            across = distance[hit] / np.float32(view.intrinsics.focal_px * samples)
+            lit *= factors(on_surface(body.material[faces], place, across))[:, None]
             lit += (body.glow[faces] * self._light.darkness)[:, None] * body.colours[faces]
             air = self._light.extinction_per_m
             seen = self._light.through_air(np.ascontiguousarray(lit.T), distance[hit], air)
@@ -182,10 +201,27 @@ class RayRenderer:
         apart = np.float32(1.0) - (across / length[block]).reshape(-1)[near].astype(np.float32)
         return near + block.start * pieces.shape[1], self._light.glare_at(apart)
 
-    def _slopes(self, view: View, pieces: Pieces) -> Floats:
-        """Return how the inverse depth grows to the right and down, and ahead.
+    def _deck(
+        self, view: View, samples: int, x: Floats, y: Floats, length: Floats, sky: Mask
+    ) -> Deck | None:
+        """Return how much of the sky the deck of clouds hides."""
+        if view.pose.position_m[2] > DECK_M or not self._light.deck.any():
+            return None
+        _, _, ahead = axes = view.axes.astype(np.float32)
+        above = x * ahead[0] + (y * ahead[1] + ahead[2]) > 0.0
+        flat = np.flatnonzero(sky & above)
+        if not len(flat):
+            return None
+        row, column = np.divmod(flat, sky.shape[1])
+        right, down, far = x[0, column], y[row, 0], length.reshape(-1)[flat]
+        towards = np.stack([(right * a + down * b + c) / far for a, b, c in axes])
+        pixel_rad = 1.0 / (view.intrinsics.focal_px * samples)
+        return flat, deck(towards, view.pose.position_m, pixel_rad)
 
-        It has a column for each piece, of which only those of ``pieces`` are filled in; those of
+    def _planes(self, view: View, pieces: Pieces) -> tuple[Floats, Floats]:
+        """Return how the inverse depth grows to the right, down and ahead, and distances of planes.
+
+        Both have a column for each piece, of which only those of ``pieces`` are filled in; those of
         the sky are 0.
         """
         slopes = np.zeros((3, len(self._heights) + SKY_STEPS), dtype=np.float32)
@@ -198,17 +234,65 @@ class RayRenderer:
         # No ray meets a plane in which the camera lies.
         heights[heights == 0.0] = np.inf
         slopes[:, met] = (view.axes.T @ normals) / heights
-        return slopes
+        away = np.zeros(slopes.shape[1], dtype=np.float32)
+        away[met] = np.abs(heights)
+        return slopes, away
+
+    def _texture(
+        self,
+        view: View,
+        samples: int,
+        x: Floats,
+        y: Floats,
+        length: Floats,
+        inverse_depth: Floats,
+        pieces: Pieces,
+        away: Floats,
+    ) -> Floats:
+        """Return by how much each sample is brighter or darker than its piece."""
+        found = np.ones(pieces.shape, dtype=np.float32)
+        flat = np.flatnonzero(inverse_depth > 0.0)
+        if not len(flat):
+            return found
+        row, column = np.divmod(flat, pieces.shape[1])
+        depth = 1.0 / inverse_depth.reshape(-1)[flat]
+        right, down = x[0, column], y[row, 0]
+        place = np.empty((3, len(flat)), dtype=np.float32)
+        for axis, eye, ways in zip(place, view.pose.position_m, view.axes, strict=True):
+            across, along, ahead = ways.astype(np.float32)
+            np.multiply(right, across, out=axis)
+            axis += down * along
+            axis += ahead
+            axis *= depth
+            axis += np.float32(eye)
+        piece = pieces.reshape(-1)[flat]
+        # A pixel shows more of a slanting surface lengthwise than across: the mean of both.
+        footprint = depth * length.reshape(-1)[flat]
+        footprint /= _of(away, piece)
+        np.sqrt(footprint, out=footprint)
+        footprint *= depth
+        footprint *= np.float32(1.0 / (view.intrinsics.focal_px * samples))
+        found.reshape(-1)[flat] = factors(on_surface(_of(self._materials, piece), place, footprint))
+        return found
 
     def _colour_of(
-        self, pieces: Pieces, left: Floats, glare: Glare | None
+        self, pieces: Pieces, left: Floats, texture: Floats, deck: Deck | None, glare: Glare | None
     ) -> npt.NDArray[np.uint8]:
         """Return what pieces look like when some of their light is left."""
         colour = np.empty((*pieces.shape, 3), dtype=np.uint8)
+        change = left * (texture - np.float32(1.0))
         for index, air in enumerate(self._light.airlight.tolist()):
+            # Of light c, c t l + a (1 - l) is seen; the table has c - a.
+            varied = change * np.float32(TINT[index])
             seen = _of(self._beyond_air[index], pieces)
-            seen *= left
-            seen += np.float32(air * LEVELS)
+            seen *= left + varied
+            varied += np.float32(1.0)
+            varied *= np.float32(air * LEVELS)
+            seen += varied
+            if deck is not None:
+                behind = seen.reshape(-1)
+                white = np.float32(self._light.deck[index] * LEVELS)
+                behind[deck[0]] += (white - behind[deck[0]]) * deck[1]
             if glare is not None:
                 seen.reshape(-1)[glare[0]] += glare[1][index] * np.float32(LEVELS)
             colour[..., index] = encode_levels(seen)
@@ -220,8 +304,8 @@ def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDA
     return table.take(entries, mode="clip")
 
 
-def _pieces(landscape: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles, Floats]:
-    """Return the piece of each triangle; normals, heights and colours of pieces in columns.
+def _pieces(landscape: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles, Floats, Kinds]:
+    """Return the piece of each triangle; normals, heights, colours and materials of pieces.
 
     Triangles of one colour in one plane are one piece. The first entry stands for no triangle,
     and piece 0 is the sky: its plane is infinitely far in every direction.
@@ -229,7 +313,9 @@ def _pieces(landscape: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doub
     baked = light.baked(landscape)
     normals = landscape.face_normals.astype(np.float64)
     heights = np.einsum("ij,ij->i", normals, landscape.corners[:, 0].astype(np.float64))
-    keys = np.column_stack((np.round(normals, 5), np.round(heights, 2), np.round(baked, 5)))
+    keys = np.column_stack(
+        (np.round(normals, 5), np.round(heights, 2), np.round(baked, 5), landscape.material)
+    )
     _, first, piece = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     none = np.zeros((1, 3))
     return (
@@ -237,4 +323,5 @@ def _pieces(landscape: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doub
         np.ascontiguousarray(np.vstack((none, normals[first])).T),
         np.concatenate(([1.0], heights[first])),
         np.ascontiguousarray(np.vstack((none, baked[first])).T, dtype=np.float32),
+        np.concatenate(([0.0], landscape.material[first])).astype(np.int32),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -19,6 +20,9 @@ from airhilt.shapes.mesh import Mesh
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.surface.kinds import load_kind
 
+OPERATOR_LETTERS = 3
+"""Letters of a callsign that name its operator: ICAO Doc 8585."""
+LIVERY_NUMBERS = 24
 MOST_ACTORS = int(np.iinfo(np.uint8).max)
 """Number of actors that ``Frame.instance`` tells apart."""
 
@@ -86,21 +90,28 @@ def model_of(actor: ActorSpec, files: Mapping[str, Any]) -> Model:
         There is no such kind.
     """
     return (
-        aircraft_model(actor.aircraft, files)
+        aircraft_model(actor.aircraft, files, livery_of(actor.callsign))
         if isinstance(actor, AircraftSpec)
         else kind_model(actor.kind)
     )
 
 
-def aircraft_model(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> Model:
-    """Return how a type of aircraft looks."""
+def livery_of(callsign: str) -> int:
+    """Return the livery of a callsign: aircraft of one operator have the same."""
+    return zlib.crc32(callsign[:OPERATOR_LETTERS].encode()) % LIVERY_NUMBERS
+
+
+def aircraft_model(
+    name: str, files: Mapping[str, Any] = MappingProxyType({}), livery: int = 0
+) -> Model:
+    """Return how a type of aircraft looks in a livery."""
     kind = load_aircraft_type(name, files)
     return Model(
         "airplane",
-        name,
-        aircraft_meshes(kind),
+        f"{name} {livery}",
+        aircraft_meshes(kind, livery=livery),
         lambda t_s, lit: aircraft_lights(kind, t_s, lit),
-        aircraft_meshes(kind, coarse=True),
+        aircraft_meshes(kind, coarse=True, livery=livery),
         kind,
     )
 

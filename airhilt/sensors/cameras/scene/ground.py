@@ -12,6 +12,7 @@ from shapely import MultiPoint, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
+from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Colour, Floats, Mesh, join
 from airhilt.sim.streams import stream
 
@@ -23,7 +24,7 @@ GRID_M = 0.01
 
 @dataclass(frozen=True)
 class Layer:
-    """An area of one colour, or of cells that vary from one to the next.
+    """An area of one material and colour, or of cells that vary from one to the next.
 
     Attributes
     ----------
@@ -37,6 +38,7 @@ class Layer:
 
     area: BaseGeometry
     colours: tuple[Colour, ...]
+    material: Material = Material.PAINT
     cells: tuple[BaseGeometry, ...] = ()
     mottle: float = 0.0
 
@@ -64,7 +66,7 @@ def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
             for piece, sunlit in _split(part, shadows):
                 areas.append(piece)
                 looks.append((*(share * change for share in colour), sunlit))
-        pieces.append(_triangles(areas, looks))
+        pieces.append(_triangles(areas, looks).made_of(layer.material))
     return join(pieces)
 
 
@@ -109,6 +111,7 @@ def _triangles(areas: Sequence[BaseGeometry], looks: Sequence[tuple[float, ...]]
         np.ascontiguousarray(look[:, :3]),
         np.zeros(count, dtype=np.float32),
         np.ascontiguousarray(look[:, 3]),
+        np.zeros(count, dtype=np.float32),
     )
 
 

@@ -62,7 +62,7 @@ def scene_identity(
         mount = camera.at if isinstance(camera.at, Mount) else None
         pose = camera.at.pose if isinstance(camera.at, Mount) else camera.at
         carried = None if mount is None else (mount.actor, mount.sees_own_aircraft)
-        parts.append((camera.name, carried, View(camera.intrinsics, pose).key))
+        parts.append((camera.name, carried, View(camera.intrinsics, pose).key, camera.imaging))
     return _sha256(parts)
 
 

@@ -33,6 +33,8 @@ TWILIGHT_GLARE = 3.5
 DISC = 9000.0
 GLARE_ENDS = 7.0
 """Angle at which the glare ends, as 1 less its cosine, times the sharpness."""
+OVERCAST = 0.5
+"""Cover from which nothing above the overcast is seen."""
 AFTERGLOW = (0.5, 0.19, 0.05)
 
 # Elevation of the sun in degrees; linear colours of zenith, horizon, direct light, diffuse light.
@@ -134,6 +136,12 @@ class Illumination:
     def reflected(self) -> Floats:
         """Light of the ground on a surface that faces down."""
         return np.asarray(0.6 * self.diffuse + 0.1 * self.direct, dtype=np.float32)
+
+    @cached_property
+    def deck(self) -> Floats:
+        """Colour of thin clouds high above; black under an overcast, which hides them."""
+        lit = 0.8 * self.diffuse + 0.5 * self.direct
+        return np.asarray(lit * (self.overcast < OVERCAST), dtype=np.float32)
 
     @cached_property
     def sky(self) -> Floats:

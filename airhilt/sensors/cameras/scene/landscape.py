@@ -21,6 +21,7 @@ from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.lights import airport_lights
 from airhilt.sensors.cameras.scene.mesh_cache import kept_mesh
 from airhilt.shapes.lights import Light
+from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Colour, Mesh, join, srgb
 from airhilt.units import DEGREE
 
@@ -31,6 +32,7 @@ ASPHALT = srgb(72, 74, 78)
 TAXI_ASPHALT = srgb(96, 97, 99)
 SHOULDER = srgb(112, 110, 104)
 APRON = srgb(150, 149, 145)
+RUBBER = srgb(55, 56, 60)
 PAINT = srgb(222, 222, 216)
 YELLOW = srgb(228, 178, 34)
 GRASS = srgb(104, 122, 62)
@@ -40,10 +42,17 @@ LAND = (srgb(96, 112, 62), srgb(78, 98, 56), srgb(112, 112, 80), srgb(128, 124, 
 FIELDS = (srgb(104, 122, 66), srgb(132, 128, 80), srgb(72, 94, 56), srgb(150, 138, 96),
           srgb(88, 110, 60), srgb(56, 80, 52), srgb(122, 104, 78))  # fmt: skip
 APRON_REACH_M = 48.0
+STAND_M = 30.0
+STAND_LINE_M = 0.15
+"""Half the width of the line about a stand, in m."""
 HOLD_WIDTH_M = 22.0
 NEAR_M = 7000.0
 FAR_M = 70_000.0
 HORIZON_M = 420_000.0
+CUMULUS_M = (1_200.0, 1_900.0)
+"""Heights of bases and tops of the clouds about an airport, in m."""
+CUMULUS_REACH_M = 16_000.0
+CUMULI = 36
 DEEPEST_CLOUDS_M = 1_400.0
 """Greatest height of clouds from their bases to the tops, in m: fair-weather clouds are low."""
 SHADOW_REACH = 6.0
@@ -187,6 +196,7 @@ class _Airport:
         reach = max(math.hypot(*corner) for corner in self._inside.convex_hull.exterior.coords)
         woods = scenery.scattered(200.0, reach + 3500.0, 650, forbidden, self._seed, "woods")
         town = scenery.scattered(200.0, reach + 5000.0, 420, forbidden, self._seed, "town")
+        parts.append(scenery.clouds(*CUMULUS_M, CUMULUS_REACH_M, CUMULI, self._seed))
         for found in (scenery.trees(woods, self._seed), scenery.houses(town, self._seed)):
             if found is not None:
                 parts.append(found)
@@ -206,24 +216,48 @@ class _Airport:
         yield Layer(unary_union(holds).intersection(self._taxiways), (YELLOW,))
         lines = markings.taxiway_lines([leg for leg, _ in self._legs])
         yield Layer(lines.difference(self._runways), (YELLOW,))
-        yield self._mottled(self._runways, ASPHALT, 90, 0.05, "asphalt")
-        yield self._mottled(self._taxiways, TAXI_ASPHALT, 90, 0.05, "taxiways")
-        yield Layer(self._runways.buffer(7.0, join_style="mitre"), (SHOULDER,))
-        yield self._mottled(self._apron, APRON, 120, 0.05, "slabs")
-        yield Layer(self._taxiways.buffer(5.0, ARC), (SHOULDER,))
-        yield Layer(self._water, (WATER,))
-        yield self._mottled(self._inside, GRASS, 420, 0.13, "grass")
+        yield Layer(self._stand_lines(), (YELLOW,))
+        yield Layer(self._rubber(), (RUBBER,), Material.ASPHALT)
+        yield self._mottled(self._runways, ASPHALT, Material.ASPHALT, 90, 0.05, "asphalt")
+        yield self._mottled(self._taxiways, TAXI_ASPHALT, Material.ASPHALT, 90, 0.05, "taxiways")
+        yield Layer(self._runways.buffer(7.0, join_style="mitre"), (SHOULDER,), Material.ASPHALT)
+        yield self._mottled(self._apron, APRON, Material.CONCRETE, 120, 0.05, "slabs")
+        yield Layer(self._taxiways.buffer(5.0, ARC), (SHOULDER,), Material.ASPHALT)
+        yield Layer(self._water, (WATER,), Material.WATER)
+        yield self._mottled(self._inside, GRASS, Material.GRASS, 420, 0.13, "grass")
         reach = 1.15 * max(NEAR_M, math.hypot(*np.abs(self._inside.bounds).reshape(2, 2).max(0)))
         yield _land(0.0, reach, 420, LAND, self._seed, "land")
         yield _land(reach, FAR_M, 160, LAND, self._seed, "far land")
         yield _land(FAR_M, HORIZON_M, 60, LAND[4:5], self._seed, "farthest land")
 
     def _mottled(
-        self, area: BaseGeometry, colour: Colour, count: int, mottle: float, name: str
+        self,
+        area: BaseGeometry,
+        colour: Colour,
+        material: Material,
+        count: int,
+        mottle: float,
+        name: str,
     ) -> Layer:
         """Return an area in cells that differ a little, as they do where repaired or mown."""
         reach = max(abs(bound) for bound in area.bounds) * 1.5 if not area.is_empty else 1.0
-        return Layer(area, (colour,), cells(0.0, reach, count, self._seed, name), mottle)
+        found = cells(0.0, reach, count, self._seed, name)
+        return Layer(area, (colour,), material, found, mottle)
+
+    def _stand_lines(self) -> BaseGeometry:
+        """Return the lines about stands, which aircraft keep within."""
+        outlines = [
+            Point(self._plane.to_local(node.place)).buffer(STAND_M, quad_segs=1).exterior
+            for node in self._airport.taxiways.nodes
+            if node.kind == "stand"
+        ]
+        return unary_union([line.buffer(STAND_LINE_M) for line in outlines])
+
+    def _rubber(self) -> BaseGeometry:
+        """Return where tyres have left rubber on runways."""
+        strips = self._layout.strips.values()
+        marks = [mark for strip in strips for mark in markings.rubber(strip, self._plane)]
+        return unary_union(marks).intersection(self._runways)
 
     def _apron_area(self) -> BaseGeometry:
         stands = [
@@ -274,14 +308,14 @@ def _base() -> Mesh:
     vertices = np.column_stack((floor, np.full(len(floor), -4.0)))
     middle = np.arange(1, len(vertices) - 1)
     faces = np.column_stack((np.zeros_like(middle), middle, middle + 1))[:, ::-1]
-    return Mesh.of(vertices, faces, GRASS)
+    return Mesh.of(vertices, faces, GRASS).made_of(Material.GRASS)
 
 
 def _land(
     inner_m: float, outer_m: float, count: int, colours: tuple[Colour, ...], seed: int, name: str
 ) -> Layer:
     found = cells(inner_m, outer_m, count, seed, name)
-    return Layer(ring(inner_m, outer_m), colours, found, 0.12)
+    return Layer(ring(inner_m, outer_m), colours, Material.FIELD, found, 0.12)
 
 
 def _seed(name: str) -> int:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from shapely import LineString, Polygon, affinity, box, transform
+from shapely import LineString, Point, Polygon, affinity, box, transform
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
@@ -46,6 +46,11 @@ ZONE_BARS = ((500.0, 3), (1500.0, 2), (2000.0, 2), (2500.0, 1), (3000.0, 1))
 BAR_M = (6.0 * FOOT, 75.0 * FOOT)
 BAR_GAP_M = 5.0 * FOOT
 EDGE_M = 3.0 * FOOT
+TOUCHDOWN_M = 450.0
+"""Distance from the threshold about which aircraft touch down, in m."""
+RUBBER_M = ((3.0, 1.4, 330.0), (4.8, 1.8, 260.0))
+"""Distance of tracks of wheels from the centre line, half width and half length, in m: the main
+wheels of airliners are 5.7 to 11 m apart."""
 TAXI_LINE_M = 1.0 * FOOT
 """Width of a taxiway line, in m: the wider of the two that paragraph 4.2 allows."""
 HOLD_LINE_M = 1.0 * FOOT
@@ -85,6 +90,15 @@ def runway_paint(strip: RunwayStrip, local_frame: LocalFrame) -> BaseGeometry:
         )
     ]
     return unary_union(marks).intersection(strip.pavement)
+
+
+def rubber(strip: RunwayStrip, local_frame: LocalFrame) -> Iterator[BaseGeometry]:
+    """Yield the tracks of main wheels where aircraft touch down at each end of a runway."""
+    for end in strip.ends:
+        for side in (-1.0, 1.0):
+            for inner, outer, reach in RUBBER_M:
+                middle = Point(side * inner, TOUCHDOWN_M)
+                yield _placed(affinity.scale(middle.buffer(1.0), outer, reach), end, local_frame)
 
 
 def _placed(mark: BaseGeometry, end: RunwayEnd, local_frame: LocalFrame) -> BaseGeometry:

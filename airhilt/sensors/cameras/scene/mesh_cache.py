@@ -20,7 +20,7 @@ from airhilt.shapes.mesh import Floats, Mesh
 
 COMPRESSION = 1
 """Level of zlib."""
-SHAPES = ((3, 3), (3, 3), (3,), (), ())
+SHAPES = ((3, 3), (3, 3), (3,), (), (), ())
 """Arrays of a mesh with an entry for each triangle."""
 
 

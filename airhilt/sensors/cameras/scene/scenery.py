@@ -14,6 +14,7 @@ from shapely import Polygon
 from shapely.geometry.base import BaseGeometry
 
 from airhilt.sensors.cameras.scene.ground import drop_m
+from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Colour, Mesh, box, join, loft, srgb
 from airhilt.sim.streams import stream
 
@@ -47,7 +48,7 @@ def building(outline: Polygon, height_m: float) -> Mesh:
     plant = box(CONCRETE, 8.0, 8.0, 2.5).moved(middle.x, middle.y, height_m)
     if outline.buffer(-6.0).contains(middle):
         parts.append(plant)
-    return join(parts)
+    return join(parts).made_of(Material.WALL)
 
 
 def tower(outline: Polygon, height_m: float) -> Mesh:
@@ -64,7 +65,7 @@ def tower(outline: Polygon, height_m: float) -> Mesh:
         loft([ring(1.04 * half, cab + 3.6), ring(0.8 * half, cab + 4.8)], CONCRETE,
              closed=True),
     ]  # fmt: skip
-    return join(parts).moved(middle.x, middle.y)
+    return join(parts).moved(middle.x, middle.y).made_of(Material.WALL)
 
 
 def _ring(corners: int, turn: float, radius: float, up: float) -> list[tuple[float, float, float]]:
@@ -83,7 +84,7 @@ def trees(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
         wide = size * float(draws.uniform(0.6, 1.0))
         low = -float(drop_m(math.hypot(east, north)))
         found.append(kind.stretched(wide, wide, size).moved(east, north, low))
-    return join(found) if found else None
+    return join(found).made_of(Material.FOLIAGE) if found else None
 
 
 def _tree(colour: Colour, pointed: bool) -> Mesh:
@@ -107,7 +108,7 @@ def houses(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
         turn = float(draws.uniform(0.0, math.pi))
         low = -float(drop_m(math.hypot(east, north)))
         found.append(_turned(block, turn).moved(east, north, low))
-    return join(found) if found else None
+    return join(found).made_of(Material.WALL) if found else None
 
 
 def _without_floor(mesh: Mesh) -> Mesh:
@@ -129,7 +130,7 @@ def clouds(base_m: float, tops_m: float, reach_m: float, count: int, seed: int) 
         kind = kinds[int(draws.integers(len(kinds)))].stretched(wide, wide, tall)
         low = base_m - float(drop_m(distance))
         found.append(_turned(kind, turn).moved(east, north, low))
-    return join(found)
+    return join(found).made_of(Material.CLOUD)
 
 
 def _cumulus(draws: np.random.Generator) -> Mesh:
