@@ -42,12 +42,13 @@ class ImageSensor:
         y = np.arange(lens.height_px) + 0.5 - lens.height_px / 2.0
         cosine = lens.focal_px / np.sqrt(x**2 + y[:, None] ** 2 + lens.focal_px**2)
         light = 2.0**imaging.exposure_ev * cosine ** (4.0 * imaging.vignetting)
-        light = light[..., None] * (1.0 + imaging.fixed_pattern * draws.normal(size=(*shape, 3)))
+        pattern = draws.standard_normal((*shape, 3), np.float32)
+        light = light[..., None] * (1.0 + imaging.fixed_pattern * pattern)
         gains = np.round(ONE * np.maximum(light, 0.0) ** ENCODED)
         self._gains = gains.astype(np.uint32 if gains.max() > ONE else np.uint16)
-        self.has_noise = imaging.noise_levels > 0.0
-        if self.has_noise:
-            grain = draws.normal(size=(shape[0] + SPARE_PX, shape[1] + SPARE_PX, 3))
+        if imaging.noise_levels > 0.0:
+            size = shape[0] + SPARE_PX, shape[1] + SPARE_PX, 3
+            grain = draws.standard_normal(size, np.float32)
             self._grain = np.round(imaging.noise_levels * grain).astype(np.int16)
 
     def expose(self, light: Pixels, number: int) -> Pixels:
@@ -62,7 +63,7 @@ class ImageSensor:
         pixels //= ONE
         if pixels.dtype != np.uint16:
             np.minimum(pixels, 255, out=pixels)
-        if self.has_noise:
+        if self._imaging.noise_levels > 0.0:
             row, column = number * 37 % SPARE_PX, number * 23 % SPARE_PX
             grain = self._grain[row : row + light.shape[0], column : column + light.shape[1]]
             return self._coded(np.clip(pixels + grain, 0, 255).astype(np.uint8))

@@ -119,10 +119,7 @@ class SceneRenderer:
             else Background(self._renderer, supersampling)
             for camera in self.cameras.values()
         }
-        self._sensors = {
-            camera.name: ImageSensor(camera.name, camera.intrinsics, camera.imaging)
-            for camera in self.cameras.values()
-        }
+        self._sensors: dict[str, ImageSensor] = {}
         self._plain: dict[str, _Plain] = {}
         self._own: dict[str, _OwnAircraft] = {}
         self._streaks = {
@@ -303,7 +300,7 @@ class SceneRenderer:
         if name in self._streaks:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
-        colour = self._sensors[name].expose(colour, self._taken[name])
+        colour = self._sensor(name).expose(colour, self._taken[name])
         self._taken[name] += 1
         for plane in (colour, distance, instance):
             plane.flags.writeable = False  # Several frames may have it.
@@ -311,7 +308,14 @@ class SceneRenderer:
 
     def _changes(self, name: str) -> bool:
         """Return whether two pictures of the same differ, by rain or by noise."""
-        return name in self._streaks or self._sensors[name].has_noise
+        return name in self._streaks or self.cameras[name].imaging.noise_levels > 0.0
+
+    def _sensor(self, name: str) -> ImageSensor:
+        """Return the sensor of a camera, which is made when it takes its first picture."""
+        if name not in self._sensors:
+            camera = self.cameras[name]
+            self._sensors[name] = ImageSensor(name, camera.intrinsics, camera.imaging)
+        return self._sensors[name]
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the landscape, which are always on, into what is drawn once."""

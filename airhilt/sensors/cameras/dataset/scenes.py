@@ -20,7 +20,12 @@ from airhilt.sensors.cameras.mounts import Camera, station_mount
 from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, kind_model
 from airhilt.sensors.cameras.scene.builder import air_and_sun
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.scene.landscape import Landscape, airport_landscape, open_country
+from airhilt.sensors.cameras.scene.landscape import (
+    Landscape,
+    airport_landscape,
+    casts_shadows,
+    open_country,
+)
 from airhilt.sim.streams import stream
 from airhilt.units import DEGREE
 from airhilt.world.surface.layout import Layout, load_layout
@@ -104,6 +109,7 @@ class Casting:
             place: None if place == EN_ROUTE else load_layout(place) for place in places
         }
         self._models = {kind: make(kind) for make, group in KINDS for kind, *_ in group}
+        self._in_shade: dict[str, Landscape] = {}
         self._painted = {
             (kind, livery): aircraft_model(kind, livery=livery)
             for kind, *_ in AIRCRAFT
@@ -124,7 +130,7 @@ class Casting:
         weather, daylight, light = _weather(latitude, layout is None, draws)
         height = math.exp(draws.uniform(math.log(400.0), math.log(9000.0)))
         if layout is not None:
-            landscape = airport_landscape(layout, light)
+            landscape = self._airport(layout, light)
         else:
             clouds = 0.6 * height if height > 700.0 and draws.random() < 0.7 else None
             landscape = open_country(light, f"{draws.integers(1 << 30)}", clouds)
@@ -152,6 +158,14 @@ class Casting:
         return Sitting(
             place, weather, daylight, light, landscape, layout, height, models, cameras, order
         )
+
+    def _airport(self, layout: Layout, light: Illumination) -> Landscape:
+        """Return an airport; without shadows it is the same in all lights."""
+        if casts_shadows(light):
+            return airport_landscape(layout, light)
+        if layout.airport.icao not in self._in_shade:
+            self._in_shade[layout.airport.icao] = airport_landscape(layout, light)
+        return self._in_shade[layout.airport.icao]
 
     def _lens(self, draws: np.random.Generator) -> Intrinsics:
         fov = math.exp(draws.uniform(*np.log(FIELDS_OF_VIEW)))

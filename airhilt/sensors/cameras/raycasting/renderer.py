@@ -62,21 +62,25 @@ class RayRenderer:
         self._piece_of, self._normals, self._heights, colours, self._materials = found
         tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
         self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
+        self._shapes: dict[str, Mesh] = {}
         self._bodies: dict[str, _Body] = {}
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
         """Keep the shape of a body, to draw it by this name."""
-        self._bodies[name] = _Body(
-            self._build(mesh.corners),
-            mesh.normals,
-            mesh.colours,
-            mesh.glow,
-            mesh.material.astype(np.int32),
-        )
+        self._shapes[name] = mesh
 
     def close(self) -> None:
         """Release the shapes."""
+        self._shapes.clear()
         self._bodies.clear()
+
+    def _body_of(self, name: str) -> _Body:
+        """Return the body of a name; most are never seen, so it is built when it is."""
+        if name not in self._bodies:
+            mesh = self._shapes[name]
+            scene, material = self._build(mesh.corners), mesh.material.astype(np.int32)
+            self._bodies[name] = _Body(scene, mesh.normals, mesh.colours, mesh.glow, material)
+        return self._bodies[name]
 
     def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the landscape behind all bodies, with the sky and the air."""
@@ -110,7 +114,7 @@ class RayRenderer:
                 for part in parts]  # fmt: skip
 
     def _body(self, view: View, shape: str, pose: Pose, window: Window, samples: int) -> Samples:
-        body = self._bodies[shape]
+        body = self._body_of(shape)
         directions = view.directions(*view.sample_places(window, samples))
         size = directions.shape[1:]
         rotation = pose.rotation.astype(np.float32)
@@ -147,7 +151,7 @@ class RayRenderer:
         away = -position[2] / towards[:, 2]
         ground = position + towards * away[:, None] - np.asarray(pose.position_m)
         sun = (self._light.sun @ pose.rotation).astype(np.float32)
-        hidden = self._bodies[shape].scene.blocked(ground @ pose.rotation, sun)
+        hidden = self._body_of(shape).scene.blocked(ground @ pose.rotation, sun)
         shaded[below] = np.where(hidden, np.float32(0.0), np.float32(np.inf))
         return drawn
 

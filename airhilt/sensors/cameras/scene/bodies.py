@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -14,6 +15,7 @@ from airhilt.errors import CameraError
 from airhilt.imaging.view import Pose
 from airhilt.messages import VisibleClass
 from airhilt.scenario.models import ActorSpec, AircraftSpec
+from airhilt.sensors.cameras.scene.projected_box import Outline
 from airhilt.shapes.aircraft import aircraft_meshes
 from airhilt.shapes.lights import Light, aircraft_lights
 from airhilt.shapes.mesh import Mesh
@@ -74,6 +76,11 @@ class Model:
     lights: Callable[[float, bool], Iterator[Light]]
     far: Mapping[str, Mesh] = field(default_factory=dict)
     aircraft: AircraftType | None = None
+
+    @cached_property
+    def outlines(self) -> dict[str, Outline]:
+        """Outlines of its shapes."""
+        return {name: Outline.of(mesh) for name, mesh in self.shapes.items()}
 
 
 def model_of(actor: ActorSpec, files: Mapping[str, Any]) -> Model:

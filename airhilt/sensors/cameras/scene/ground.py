@@ -34,6 +34,8 @@ class Layer:
         Polygons that cover the area without overlap; empty if the whole area is one cell.
     mottle
         Greatest change of a cell's brightness, as a share of it.
+    glow
+        Light of lamps on it at night.
     """
 
     area: BaseGeometry
@@ -41,6 +43,7 @@ class Layer:
     material: Material = Material.PAINT
     cells: tuple[BaseGeometry, ...] = ()
     mottle: float = 0.0
+    glow: float = 0.0
 
 
 def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
@@ -66,7 +69,7 @@ def sheet(layers: Iterable[Layer], shadows: BaseGeometry, seed: int) -> Mesh:
             for piece, sunlit in _split(part, shadows):
                 areas.append(piece)
                 looks.append((*(share * change for share in colour), sunlit))
-        pieces.append(_triangles(areas, looks).made_of(layer.material))
+        pieces.append(_triangles(areas, looks, layer))
     return join(pieces)
 
 
@@ -87,7 +90,9 @@ def _split(area: BaseGeometry, shadows: BaseGeometry) -> list[tuple[BaseGeometry
     return [(part, sun) for part, sun in ((lit, 1.0), (shaded, 0.0)) if not part.is_empty]
 
 
-def _triangles(areas: Sequence[BaseGeometry], looks: Sequence[tuple[float, ...]]) -> Mesh:
+def _triangles(
+    areas: Sequence[BaseGeometry], looks: Sequence[tuple[float, ...]], layer: Layer
+) -> Mesh:
     """Return areas as triangles; the looks of each are its colour and its share of sunlight."""
     parts, area = shapely.get_parts(np.asarray(areas, dtype=object), return_index=True)
     is_surface = shapely.get_dimensions(parts) == 2
@@ -109,9 +114,9 @@ def _triangles(areas: Sequence[BaseGeometry], looks: Sequence[tuple[float, ...]]
         flat.astype(np.float32),
         up,
         np.ascontiguousarray(look[:, :3]),
-        np.zeros(count, dtype=np.float32),
+        np.full(count, layer.glow, dtype=np.float32),
         np.ascontiguousarray(look[:, 3]),
-        np.zeros(count, dtype=np.float32),
+        np.full(count, layer.material, dtype=np.float32),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -57,6 +57,8 @@ DEEPEST_CLOUDS_M = 1_400.0
 """Greatest height of clouds from their bases to the tops, in m: fair-weather clouds are low."""
 SHADOW_REACH = 6.0
 """Greatest length of a shadow for its height: the sun is lower only for minutes."""
+FLOODLIGHT = 0.06
+"""Light of floodlights on an apron at night, against that of a white surface in the sun."""
 CLEARANCE_M = 0.2
 ARC = 8
 """Number of edges for a quarter of a circle: at taxiway ends they are within 6 cm of it."""
@@ -221,7 +223,8 @@ class _Airport:
         yield self._mottled(self._runways, ASPHALT, Material.ASPHALT, 90, 0.05, "asphalt")
         yield self._mottled(self._taxiways, TAXI_ASPHALT, Material.ASPHALT, 90, 0.05, "taxiways")
         yield Layer(self._runways.buffer(7.0, join_style="mitre"), (SHOULDER,), Material.ASPHALT)
-        yield self._mottled(self._apron, APRON, Material.CONCRETE, 120, 0.05, "slabs")
+        slabs = self._mottled(self._apron, APRON, Material.CONCRETE, 120, 0.05, "slabs")
+        yield replace(slabs, glow=FLOODLIGHT)
         yield Layer(self._taxiways.buffer(5.0, ARC), (SHOULDER,), Material.ASPHALT)
         yield Layer(self._water, (WATER,), Material.WATER)
         yield self._mottled(self._inside, GRASS, Material.GRASS, 420, 0.13, "grass")
@@ -286,10 +289,15 @@ class _Airport:
             yield scenery.sign(east - cos * 16.0, north + sin * 16.0, hold.heading_rad, SIGN_RED)
 
 
+def casts_shadows(light: Illumination) -> bool:
+    """Return whether the sun is so high and the sky so clear that things cast shadows."""
+    return bool(light.sun[2] >= math.sin(math.radians(2.0)) and light.overcast <= 0.8)
+
+
 def _shadow_reach(light: Illumination) -> tuple[float, float] | None:
     """Return which way the shadow of a height of 1 m goes, in m; None without shadows."""
     sun = light.sun
-    if sun[2] < math.sin(math.radians(2.0)) or light.overcast > 0.8:
+    if not casts_shadows(light):
         return None
     length = min(math.hypot(sun[0], sun[1]) / float(sun[2]), SHADOW_REACH)
     level = max(math.hypot(sun[0], sun[1]), 1e-6)

@@ -220,7 +220,7 @@ COARSE = Grain(
     32.0,
     {
         Material.GRASS: _of_noise(0.04, 2.0),
-        Material.FIELD: _of_noise(0.1, 1.0),
+        Material.FIELD: _of_noise(0.14, 1.0),
         Material.FOLIAGE: _of_noise(0.06, 1.5),
         Material.WATER: _of_noise(0.03, 2.0),
         Material.CLOUD: _of_noise(0.05, 2.0),

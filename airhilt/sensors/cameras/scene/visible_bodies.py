@@ -11,7 +11,7 @@ from airhilt.sensors.cameras.renderers import Part
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.lights import Lights, Spot
-from airhilt.sensors.cameras.scene.projected_box import Box, Outline
+from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Mesh
 
@@ -81,9 +81,9 @@ class VisibleBodies:
             for name, mesh in model.far.items():
                 self.shapes[f"{model.kind}/{name}/far"] = mesh
         self.outlines = {
-            name: Outline.of(mesh)
-            for name, mesh in self.shapes.items()
-            if not name.endswith("/far")
+            f"{model.kind}/{name}": outline
+            for model in models.values()
+            for name, outline in model.outlines.items()
         }
 
     def seen(self, body: BodyState, pose: Pose, view: View) -> VisibleBody | None:
