@@ -16,6 +16,7 @@ from airhilt.sensors.cameras.opengl import shaders
 from airhilt.sensors.cameras.opengl.shaders import FAR_M
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.sensors.cameras.scene.textures import SIDE, tiles
 from airhilt.shapes.mesh import Floats, Mesh
 
 SYSTEM_LIBRARIES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
@@ -104,12 +105,27 @@ class ModernGLRenderer:
         colours.repeat_x = False
         colours.filter = context.NEAREST, context.NEAREST
         colours.use(0)
+        self._add_textures()
         self._sky = context.vertex_array(self._sky_program, [])
         colours = np.broadcast_to(light.baked(landscape)[:, None], landscape.corners.shape)
-        data = np.concatenate((landscape.corners, colours), axis=2)
-        names = ("in_place", "in_colour")
-        self._landscape = self._array(self._landscape_program, "3f 3f", names, data)
+        data = np.concatenate((landscape.corners, colours, _at_corners(landscape.material)), axis=2)
+        names = ("in_place", "in_colour", "in_material")
+        self._landscape = self._array(self._landscape_program, "3f 3f 1f", names, data)
         self._set_light()
+
+    def _add_textures(self) -> None:
+        context = self._context
+        programs = self._landscape_program, self._sky_program, self._body_program
+        names = zip(("fine", "middle", "coarse"), tiles(), strict=True)
+        for unit, (name, tile) in enumerate(names, start=1):
+            data = tile.factors.astype(np.float16).tobytes()
+            texture = context.texture_array((SIDE, SIDE, len(tile.factors)), 1, data, dtype="f2")
+            texture.build_mipmaps()
+            texture.filter = context.NEAREST_MIPMAP_NEAREST, context.NEAREST
+            texture.use(unit)
+            for program in programs:
+                if name in program:
+                    program[name] = unit
 
     def _set_light(self) -> None:
         light = self._light
@@ -125,6 +141,7 @@ class ModernGLRenderer:
                 ("diffuse", tuple(light.diffuse)),
                 ("reflected", tuple(light.reflected)),
                 ("darkness", light.darkness),
+                ("deck", tuple(light.deck)),
             ):
                 if name in program:
                     program[name] = value
@@ -136,13 +153,14 @@ class ModernGLRenderer:
         self._bodies[name] = _Body(
             self._array(
                 self._body_program,
-                "3f 3f 3f 1f",
-                ("in_place", "in_normal", "in_colour", "in_glow"),
+                "3f 3f 3f 1f 1f",
+                ("in_place", "in_normal", "in_colour", "in_glow", "in_material"),
                 np.concatenate((
                     mesh.corners,
                     mesh.normals,
                     np.broadcast_to(mesh.colours[:, None], mesh.corners.shape),
-                    np.broadcast_to(mesh.glow[:, None, None], (len(mesh), 3, 1)),
+                    _at_corners(mesh.glow),
+                    _at_corners(mesh.material),
                 ), axis=2),
             ),
             self._array(self._shadow_program, "3f", ("in_place",), mesh.corners),
@@ -162,7 +180,10 @@ class ModernGLRenderer:
         left, top, right, bottom = _edges(view, window)
         width, height = canvas.size
         program["projection"].write(_columns(_projection(view, window, NEAR_M)))
-        program["eye"] = view.pose.position_m
+        focal = view.intrinsics.focal_px * samples
+        for each in (program, self._sky_program):
+            each["eye"] = view.pose.position_m
+            each["focal"] = focal
         program["focal_plane"] = (right - left) / width, (bottom - top) / height, left, top
         self._landscape.render()
         # Last, and as far as can be: only where nothing else is.
@@ -206,6 +227,8 @@ class ModernGLRenderer:
         tested = context.NOTHING if part.is_shadow else context.DEPTH_TEST
         context.enable_only(culled | tested)
         program["projection"].write(_columns(_projection(view, part.window, near)))
+        if not part.is_shadow:
+            program["focal"] = view.intrinsics.focal_px * part.samples
         program["rotation"].write(_columns(part.pose.rotation))
         program["place"] = part.pose.position_m if part.is_shadow else tuple(offset)
         (body.shadow if part.is_shadow else body.drawn).render()
@@ -214,6 +237,11 @@ class ModernGLRenderer:
         """Return triangles for drawing."""
         buffer = self._context.buffer(np.ascontiguousarray(data, dtype=np.float32))
         return self._context.vertex_array(program, [(buffer, layout, *names)])
+
+
+def _at_corners(numbers: Floats) -> Floats:
+    """Return a number of each triangle for each of its corners."""
+    return np.broadcast_to(numbers[:, None, None], (len(numbers), 3, 1))
 
 
 def _shelves(
