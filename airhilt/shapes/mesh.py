@@ -81,7 +81,7 @@ class Mesh:
         colours = np.broadcast_to(np.asarray(colour, dtype=np.float32), (len(proper), 3))[proper]
         ones = np.ones(len(faces), dtype=np.float32)
         normals = _smooth(points, faces, across, crease_rad)
-        return cls(corners, normals, colours, glow * ones, ones, Material.PAINT * ones)
+        return cls(corners, normals, colours, glow * ones, ones, float(Material.PAINT) * ones)
 
     def part(self, wanted: npt.NDArray[np.bool_]) -> Mesh:
         """Return those triangles for which ``wanted`` is true."""

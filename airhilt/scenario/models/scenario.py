@@ -19,7 +19,7 @@ from airhilt.scenario.models.responses import (
     NamedOrOwnModel,
     ResponseModel,
 )
-from airhilt.scenario.models.scene import Daylight, Scene, Weather
+from airhilt.scenario.models.scene import Appearance, Daylight, Scene, Weather
 from airhilt.scenario.models.sensors import Adsb, Camera, Radar, SurfaceSurveillance
 
 UnassistedOutcome = Literal["collision", "nmac", "runway_incursion", "loss_of_separation"]
@@ -165,6 +165,7 @@ class Scenario(Model):
     )
     weather: Weather = Weather()
     daylight: Daylight = Daylight()
+    appearance: Appearance = Appearance()
     separation: Separation = Separation()
     failures: tuple[Failure, ...] = Field(
         default=(),

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from airhilt.geodesy.positions import Bearing, GeodeticPosition
-from airhilt.quantities import Count, Date, FileName, Number
+from airhilt.quantities import Count, Date, FileName, Number, Share
 from airhilt.scenario.models.base import Model
 
 Visibility = Annotated[Number, Field(gt=0.0, le=100_000.0)]
@@ -61,6 +61,21 @@ class Weather(Model):
     turbulence: Turbulence = Turbulence()
     visibility_m: Visibility = 10_000.0
     rain_mm_h: Number = Field(default=0.0, ge=0.0, le=150.0, description="rate of rainfall")
+    cloud_cover: Share = Field(
+        default=0.0,
+        description="share of the sky that thin clouds high up hide; with any, fair-weather clouds "
+        "stand about airports too. No cloud hides traffic from other traffic",
+    )
+
+
+class Appearance(Model):
+    """How much detail cameras see."""
+
+    texture: Share = Field(
+        default=0.0,
+        description="how much surfaces vary about their colours, as a share of what is seen in "
+        "photographs",
+    )
 
 
 class Daylight(Model):

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from airhilt.imaging.masks import Mask, grown
 from airhilt.imaging.view import Pose, View
+from airhilt.scenario.models import Imaging
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame, Prospect
@@ -37,6 +38,7 @@ from airhilt.shapes.mesh import Floats
 OWN_SAMPLES = 2
 OWN_MARGIN_PX = 2
 """Margin of the mask of the own aircraft, in pixels."""
+IDEAL = Imaging()
 AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
 TURN_STEPS = 24
 """Steps a radian: a picture of the own aircraft is kept until the light has turned by one."""
@@ -300,7 +302,8 @@ class SceneRenderer:
         if name in self._streaks:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
-        colour = self._sensor(name).expose(colour, self._taken[name])
+        if self.cameras[name].imaging != IDEAL:
+            colour = self._sensor(name).expose(colour, self._taken[name])
         self._taken[name] += 1
         for plane in (colour, distance, instance):
             plane.flags.writeable = False  # Several frames may have it.

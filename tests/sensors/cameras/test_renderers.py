@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
@@ -39,12 +40,13 @@ MODELS = {
 
 
 class Airfield:
-    """Washington with four bodies on and about runway 01."""
+    """Washington in detail, under clouds, with four bodies on and about runway 01."""
 
     def __init__(self) -> None:
         self.scenario = load("s01b_nominal")
         self.site = ScenarioSite.of(self.scenario)
-        self.light = light_of(self.scenario, self.site)
+        light = light_of(self.scenario, self.site)
+        self.light = replace(light, texture=1.0, clouds=0.4)
         self.landscape = landscape_of(self.scenario, self.site, self.light)
         known = cameras_of(self.scenario, self.site)
         lens = Intrinsics(640, 360, 40.0 * DEGREE)

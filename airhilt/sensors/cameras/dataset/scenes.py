@@ -9,7 +9,7 @@ from __future__ import annotations
 import datetime
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -161,7 +161,7 @@ class Casting:
 
     def _airport(self, layout: Layout, light: Illumination) -> Landscape:
         """Return an airport; without shadows it is the same in all lights."""
-        if casts_shadows(light):
+        if casts_shadows(light) or light.shows_deck:
             return airport_landscape(layout, light)
         if layout.airport.icao not in self._in_shade:
             self._in_shade[layout.airport.icao] = airport_landscape(layout, light)
@@ -204,7 +204,9 @@ def _weather(
     """Return weather and daylight: day, twilight and night in turn by chance."""
     visibility = math.exp(draws.uniform(math.log(800.0), math.log(30_000.0)))
     rain = math.exp(draws.uniform(0.0, math.log(30.0))) if draws.random() < 0.2 else 0.0
-    weather = Weather(visibility_m=visibility, rain_mm_h=rain)
+    cover = float(draws.uniform()) if draws.random() < 0.6 else 0.0
+    weather = Weather(visibility_m=visibility, rain_mm_h=rain, cloud_cover=cover)
+    texture = float(draws.uniform(0.3, 1.0)) if draws.random() < 0.9 else 0.0
     low, high = _HOURS[int(draws.choice(len(_HOURS), p=[0.62, 0.2, 0.18]))]
     while True:
         day = datetime.timedelta(days=int(draws.integers(DAYS_OF_A_YEAR)))
@@ -213,7 +215,7 @@ def _weather(
         )
         light = air_and_sun(weather, daylight, latitude_rad, en_route)
         if low <= math.degrees(light.sun_elevation_rad) < high:
-            return weather, daylight, light
+            return weather, daylight, replace(light, texture=texture)
 
 
 def _standpoint(layout: Layout, draws: np.random.Generator) -> Pose:

@@ -6,7 +6,6 @@ from airhilt.imaging.view import NEAR_M
 from airhilt.sensors.cameras.scene.illumination import DISC, GLARE_ENDS, LOWEST_SKY
 from airhilt.sensors.cameras.scene.textures import (
     COARSE,
-    DECK_FROM,
     DECK_M,
     DECK_MOST,
     DECK_OPAQUE,
@@ -41,6 +40,7 @@ uniform sampler2DArray fine;
 uniform sampler2DArray middle;
 uniform sampler2DArray coarse;
 uniform float focal;
+uniform float texture_share;
 float at(sampler2DArray tile, float texel, vec2 place, float material, float footprint) {{
     return textureLod(
         tile, vec3(place / (texel * {SIDE}.0), material), log2(footprint / texel)
@@ -53,7 +53,7 @@ float textured(vec3 place, float material, float footprint) {{
         * at(coarse, {COARSE.texel_m}, p, material, footprint);
     if (footprint * {2.0**0.5} < {2.0**NEAR})
         factor *= at(fine, {FINE.texel_m}, p, material, footprint);
-    return factor;
+    return 1.0 + texture_share * (factor - 1.0);
 }}
 """
 LANDSCAPE_VERTEX = """
@@ -118,6 +118,8 @@ SKY_FRAGMENT = (
 uniform sampler2D sky;
 uniform vec3 eye;
 uniform vec3 deck;
+uniform float deck_from;
+uniform bool shows_deck;
 uniform vec3 sun;
 uniform vec3 glare;
 uniform float sharpness;
@@ -128,11 +130,11 @@ layout(location = 1) out float out_distance;
 void main() {{
     vec3 d = normalize(towards);
     vec3 colour = texture(sky, vec2((d.z - ({LOWEST_SKY})) / (1.0 - ({LOWEST_SKY})), 0.5)).rgb;
-    if (d.z > 0.0 && eye.z <= {DECK_M} && deck.r > 0.0) {{
+    if (d.z > 0.0 && eye.z <= {DECK_M} && shows_deck) {{
         float away = ({DECK_M} - eye.z) / max(d.z, 1e-3);
         float found = at(coarse, {COARSE.texel_m}, d.xy * away + eye.xy, {Material.DECK}.0,
                          away / focal);
-        found = (found - 1.0 - {DECK_FROM * DECK_VARIES}) * {DECK_OPAQUE / DECK_VARIES};
+        found = (found - 1.0 - deck_from * {DECK_VARIES}) * {DECK_OPAQUE / DECK_VARIES};
         colour = mix(colour, deck, clamp(found, 0.0, {DECK_MOST}) * clamp(4.0 * d.z, 0.0, 1.0));
     }}
     float apart = 1.0 - dot(d, sun);

@@ -100,7 +100,9 @@ class RayRenderer:
         part *= y
         inverse_depth += part
         inverse_depth += _of(ahead, pieces)
-        texture = self._texture(view, samples, x, y, length, inverse_depth, pieces, away)
+        texture = None
+        if self._light.texture > 0.0:
+            texture = self._texture(view, samples, x, y, length, inverse_depth, pieces, away)
         with np.errstate(divide="ignore"):
             distance = np.divide(length, inverse_depth, out=inverse_depth)
         left = np.exp(distance * np.float32(-self._light.background_extinction_per_m))
@@ -129,9 +131,11 @@ class RayRenderer:
             normals = np.einsum("nk,nki->ni", weights, body.normals[faces]) @ rotation.T
             normals /= np.linalg.norm(normals, axis=1, keepdims=True)
             lit = self._light.shade(body.colours[faces], normals)
-            place = origin.astype(np.float32)[:, None] + ways[:, hit] * distance[hit]
-            across = distance[hit] / np.float32(view.intrinsics.focal_px * samples)
-            lit *= factors(on_surface(body.material[faces], place, across))[:, None]
+            if self._light.texture > 0.0:
+                place = origin.astype(np.float32)[:, None] + ways[:, hit] * distance[hit]
+                across = distance[hit] / np.float32(view.intrinsics.focal_px * samples)
+                varied = factors(on_surface(body.material[faces], place, across))
+                lit *= 1.0 + np.float32(self._light.texture) * (varied - 1.0)[:, None]
             lit += (body.glow[faces] * self._light.darkness)[:, None] * body.colours[faces]
             air = self._light.extinction_per_m
             seen = self._light.through_air(np.ascontiguousarray(lit.T), distance[hit], air)
@@ -209,7 +213,7 @@ class RayRenderer:
         self, view: View, samples: int, x: Floats, y: Floats, length: Floats, sky: Mask
     ) -> Deck | None:
         """Return how much of the sky the deck of clouds hides."""
-        if view.pose.position_m[2] > DECK_M or not self._light.deck.any():
+        if view.pose.position_m[2] > DECK_M or not self._light.shows_deck:
             return None
         _, _, ahead = axes = view.axes.astype(np.float32)
         above = x * ahead[0] + (y * ahead[1] + ahead[2]) > 0.0
@@ -220,7 +224,7 @@ class RayRenderer:
         right, down, far = x[0, column], y[row, 0], length.reshape(-1)[flat]
         towards = np.stack([(right * a + down * b + c) / far for a, b, c in axes])
         pixel_rad = 1.0 / (view.intrinsics.focal_px * samples)
-        return flat, deck(towards, view.pose.position_m, pixel_rad)
+        return flat, deck(towards, view.pose.position_m, pixel_rad, self._light.clouds)
 
     def _planes(self, view: View, pieces: Pieces) -> tuple[Floats, Floats]:
         """Return how the inverse depth grows to the right, down and ahead, and distances of planes.
@@ -253,11 +257,9 @@ class RayRenderer:
         pieces: Pieces,
         away: Floats,
     ) -> Floats:
-        """Return by how much each sample is brighter or darker than its piece."""
-        found = np.ones(pieces.shape, dtype=np.float32)
+        """Return by what share each sample is brighter or darker than its piece."""
+        found = np.zeros(pieces.shape, dtype=np.float32)
         flat = np.flatnonzero(inverse_depth > 0.0)
-        if not len(flat):
-            return found
         row, column = np.divmod(flat, pieces.shape[1])
         depth = 1.0 / inverse_depth.reshape(-1)[flat]
         right, down = x[0, column], y[row, 0]
@@ -276,23 +278,35 @@ class RayRenderer:
         np.sqrt(footprint, out=footprint)
         footprint *= depth
         footprint *= np.float32(1.0 / (view.intrinsics.focal_px * samples))
-        found.reshape(-1)[flat] = factors(on_surface(_of(self._materials, piece), place, footprint))
+        varied = factors(on_surface(_of(self._materials, piece), place, footprint))
+        varied -= np.float32(1.0)
+        varied *= np.float32(self._light.texture)
+        found.reshape(-1)[flat] = varied
         return found
 
     def _colour_of(
-        self, pieces: Pieces, left: Floats, texture: Floats, deck: Deck | None, glare: Glare | None
+        self,
+        pieces: Pieces,
+        left: Floats,
+        texture: Floats | None,
+        deck: Deck | None,
+        glare: Glare | None,
     ) -> npt.NDArray[np.uint8]:
         """Return what pieces look like when some of their light is left."""
         colour = np.empty((*pieces.shape, 3), dtype=np.uint8)
-        change = left * (texture - np.float32(1.0))
+        change = None if texture is None else texture * left
         for index, air in enumerate(self._light.airlight.tolist()):
-            # Of light c, c t l + a (1 - l) is seen; the table has c - a.
-            varied = change * np.float32(TINT[index])
             seen = _of(self._beyond_air[index], pieces)
-            seen *= left + varied
-            varied += np.float32(1.0)
-            varied *= np.float32(air * LEVELS)
-            seen += varied
+            if change is None:
+                seen *= left
+                seen += np.float32(air * LEVELS)
+            else:
+                # Of light c, c t l + a (1 - l) is seen; the table has c - a.
+                varied = change * np.float32(TINT[index])
+                seen *= left + varied
+                varied += np.float32(1.0)
+                varied *= np.float32(air * LEVELS)
+                seen += varied
             if deck is not None:
                 behind = seen.reshape(-1)
                 white = np.float32(self._light.deck[index] * LEVELS)

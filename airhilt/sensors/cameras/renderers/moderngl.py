@@ -16,7 +16,7 @@ from airhilt.sensors.cameras.opengl import shaders
 from airhilt.sensors.cameras.opengl.shaders import FAR_M
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.scene.textures import SIDE, tiles
+from airhilt.sensors.cameras.scene.textures import SIDE, deck_from, tiles
 from airhilt.shapes.mesh import Floats, Mesh
 
 SYSTEM_LIBRARIES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
@@ -142,6 +142,9 @@ class ModernGLRenderer:
                 ("reflected", tuple(light.reflected)),
                 ("darkness", light.darkness),
                 ("deck", tuple(light.deck)),
+                ("deck_from", deck_from(light.clouds)),
+                ("shows_deck", light.shows_deck),
+                ("texture_share", light.texture),
             ):
                 if name in program:
                     program[name] = value

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -22,9 +21,6 @@ from airhilt.shapes.mesh import Mesh
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.surface.kinds import load_kind
 
-OPERATOR_LETTERS = 3
-"""Letters of a callsign that name its operator: ICAO Doc 8585."""
-LIVERY_NUMBERS = 24
 MOST_ACTORS = int(np.iinfo(np.uint8).max)
 """Number of actors that ``Frame.instance`` tells apart."""
 
@@ -97,15 +93,10 @@ def model_of(actor: ActorSpec, files: Mapping[str, Any]) -> Model:
         There is no such kind.
     """
     return (
-        aircraft_model(actor.aircraft, files, livery_of(actor.callsign))
+        aircraft_model(actor.aircraft, files)
         if isinstance(actor, AircraftSpec)
         else kind_model(actor.kind)
     )
-
-
-def livery_of(callsign: str) -> int:
-    """Return the livery of a callsign: aircraft of one operator have the same."""
-    return zlib.crc32(callsign[:OPERATOR_LETTERS].encode()) % LIVERY_NUMBERS
 
 
 def aircraft_model(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Airborne, Daylight, Weather
@@ -30,7 +31,9 @@ LOWEST_CLOUDS_M = 400.0
 def light_of(scenario: Scenario, site: ScenarioSite) -> Illumination:
     """Return the illumination of a scenario."""
     latitude_rad, _ = local_frame_of(site).origin
-    return air_and_sun(scenario.weather, scenario.daylight, latitude_rad, site.layout is None)
+    en_route = site.layout is None
+    light = air_and_sun(scenario.weather, scenario.daylight, latitude_rad, en_route)
+    return replace(light, texture=scenario.appearance.texture)
 
 
 def air_and_sun(
@@ -43,7 +46,7 @@ def air_and_sun(
     overcast = 1.0 if weather.rain_mm_h > 0.0 else min(max(thick, 0.0), 1.0)
     sun = sun_direction(latitude_rad, daylight.date, daylight.solar_time_h)
     background = BACKGROUND_EN_ROUTE if en_route else 1.0
-    return Illumination(sun, visibility, overcast, background)
+    return Illumination(sun, visibility, overcast, background, clouds=weather.cloud_cover)
 
 
 def landscape_of(

@@ -64,17 +64,24 @@ class Illumination:
         Cover of the sky: 0 for blue, 1 for white, as fog and rain make it.
     background
         Factor by which ground and clouds are seen farther than bodies.
+    texture
+        Share of the variation of surfaces about their colours.
+    clouds
+        Share of the sky that thin clouds hide.
     """
 
     sun: npt.NDArray[np.float64]
     visibility_m: float
     overcast: float
     background: float = 1.0
+    texture: float = 0.0
+    clouds: float = 0.0
 
     @property
     def key(self) -> list[float]:
         """Numbers that determine everything else."""
-        return [*self.sun.tolist(), self.visibility_m, self.overcast, self.background]
+        air = self.visibility_m, self.overcast, self.background
+        return [*self.sun.tolist(), *air, self.texture, self.clouds]
 
     @property
     def sun_elevation_rad(self) -> float:
@@ -139,9 +146,13 @@ class Illumination:
 
     @cached_property
     def deck(self) -> Floats:
-        """Colour of thin clouds high above; black under an overcast, which hides them."""
-        lit = 0.8 * self.diffuse + 0.5 * self.direct
-        return np.asarray(lit * (self.overcast < OVERCAST), dtype=np.float32)
+        """Colour of thin clouds high above."""
+        return np.asarray(0.8 * self.diffuse + 0.5 * self.direct, dtype=np.float32)
+
+    @property
+    def shows_deck(self) -> bool:
+        """True if thin clouds are seen: there are some, and no overcast hides them."""
+        return self.clouds > 0.0 and self.overcast < OVERCAST
 
     @cached_property
     def sky(self) -> Floats:

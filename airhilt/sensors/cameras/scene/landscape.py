@@ -6,7 +6,7 @@ import math
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import shapely
@@ -128,10 +128,12 @@ def airport_landscape(layout: Layout, light: Illumination, is_kept: bool = False
     )
     away = _shadow_reach(light)
 
-    def make() -> Mesh:
-        return _Airport(layout, blocks, away).mesh()
+    detail = Detail(light.shows_deck, light.texture > 0.0)
 
-    mesh = kept_mesh([layout.airport.model_dump_json(), away], make) if is_kept else make()
+    def make() -> Mesh:
+        return _Airport(layout, blocks, away, detail).mesh()
+
+    mesh = kept_mesh([layout.airport.model_dump_json(), away, *detail], make) if is_kept else make()
     return Landscape(mesh, airport_lights(layout), blocks)
 
 
@@ -153,6 +155,21 @@ def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> 
     return Landscape(join(parts), (), ())
 
 
+class Detail(NamedTuple):
+    """What an airport is drawn with besides its buildings and pavements.
+
+    Attributes
+    ----------
+    clouds
+        True for fair-weather clouds about it.
+    wear
+        True for what use leaves and needs: rubber on runways, lines about stands, floodlights.
+    """
+
+    clouds: bool
+    wear: bool
+
+
 class _Airport:
     """The mesh of an airport.
 
@@ -163,12 +180,17 @@ class _Airport:
     """
 
     def __init__(
-        self, layout: Layout, blocks: Sequence[Block], away: tuple[float, float] | None
+        self,
+        layout: Layout,
+        blocks: Sequence[Block],
+        away: tuple[float, float] | None,
+        detail: Detail,
     ) -> None:
         self._layout = layout
         self._airport = layout.airport
         self._plane = layout.local_frame
         self._away = away
+        self._detail = detail
         self._seed = _seed(layout.airport.icao)
         to_local = layout.local_frame.to_local
         nodes = {node.name: to_local(node.place) for node in self._airport.taxiways.nodes}
@@ -198,7 +220,8 @@ class _Airport:
         reach = max(math.hypot(*corner) for corner in self._inside.convex_hull.exterior.coords)
         woods = scenery.scattered(200.0, reach + 3500.0, 650, forbidden, self._seed, "woods")
         town = scenery.scattered(200.0, reach + 5000.0, 420, forbidden, self._seed, "town")
-        parts.append(scenery.clouds(*CUMULUS_M, CUMULUS_REACH_M, CUMULI, self._seed))
+        if self._detail.clouds:
+            parts.append(scenery.clouds(*CUMULUS_M, CUMULUS_REACH_M, CUMULI, self._seed))
         for found in (scenery.trees(woods, self._seed), scenery.houses(town, self._seed)):
             if found is not None:
                 parts.append(found)
@@ -218,13 +241,15 @@ class _Airport:
         yield Layer(unary_union(holds).intersection(self._taxiways), (YELLOW,))
         lines = markings.taxiway_lines([leg for leg, _ in self._legs])
         yield Layer(lines.difference(self._runways), (YELLOW,))
-        yield Layer(self._stand_lines(), (YELLOW,))
-        yield Layer(self._rubber(), (RUBBER,), Material.ASPHALT)
+        if self._detail.wear:
+            yield Layer(self._stand_lines(), (YELLOW,))
+        if self._detail.wear:
+            yield Layer(self._rubber(), (RUBBER,), Material.ASPHALT)
         yield self._mottled(self._runways, ASPHALT, Material.ASPHALT, 90, 0.05, "asphalt")
         yield self._mottled(self._taxiways, TAXI_ASPHALT, Material.ASPHALT, 90, 0.05, "taxiways")
         yield Layer(self._runways.buffer(7.0, join_style="mitre"), (SHOULDER,), Material.ASPHALT)
         slabs = self._mottled(self._apron, APRON, Material.CONCRETE, 120, 0.05, "slabs")
-        yield replace(slabs, glow=FLOODLIGHT)
+        yield replace(slabs, glow=FLOODLIGHT if self._detail.wear else 0.0)
         yield Layer(self._taxiways.buffer(5.0, ARC), (SHOULDER,), Material.ASPHALT)
         yield Layer(self._water, (WATER,), Material.WATER)
         yield self._mottled(self._inside, GRASS, Material.GRASS, 420, 0.13, "grass")

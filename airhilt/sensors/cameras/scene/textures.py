@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 import scipy.fft
+import scipy.special
 
 from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Floats
@@ -36,8 +37,6 @@ DECK_M = 8000.0
 """Height of the deck of thin clouds, in m."""
 DECK_VARIES = 0.1
 """Deviation of the deck's thickness."""
-DECK_FROM = 0.4
-"""Deviations from which the deck is seen: by a normal distribution it covers a third of the sky."""
 DECK_OPAQUE = 0.45
 """Share of the sky that a deviation more hides."""
 DECK_MOST = 0.75
@@ -64,7 +63,10 @@ def noise(draws: np.random.Generator, slope: float, stretch: float = 1.0) -> Flo
     """
     field = _noise(slope, stretch)
     row, column = draws.integers(SIDE, size=2)
-    return np.roll(field[:: draws.choice((-1, 1)), :: draws.choice((-1, 1))], (row, column), (0, 1))
+    turned: Floats = np.roll(
+        field[:: draws.choice((-1, 1)), :: draws.choice((-1, 1))], (row, column), (0, 1)
+    )
+    return turned
 
 
 @cache
@@ -109,7 +111,7 @@ def _slabs(draws: np.random.Generator, side: int) -> Floats:
 def _joints(side: int) -> Floats:
     """Return the lines between squares: 1 there, else 0."""
     line = (np.arange(SIDE) % side == 0).astype(np.float32)
-    return np.maximum(line[:, None], line[None, :])
+    return np.asarray(np.maximum(line[:, None], line[None, :]))
 
 
 def _cracks(draws: np.random.Generator, count: int) -> Floats:
@@ -125,64 +127,71 @@ def _cracks(draws: np.random.Generator, count: int) -> Floats:
 
 
 def _grass(draws: np.random.Generator) -> Floats:
-    worn = np.maximum(noise(draws, 2.5) - 1.3, 0.0)
+    worn = np.maximum(noise(draws, 2.5) - np.float32(1.3), 0.0)
     mown = _stripes(32, 3.0 * noise(draws, 2.5))
-    return 0.07 * noise(draws, 1.0) + 0.06 * noise(draws, 2.5) + 0.035 * mown + 0.12 * worn
+    return _sum((0.07, noise(draws, 1.0)), (0.06, noise(draws, 2.5)), (0.035, mown), (0.12, worn))
 
 
 def _asphalt(draws: np.random.Generator) -> Floats:
-    seams = (np.arange(SIDE) % 16 == 0).astype(np.float32)[None, :]
-    return (
-        0.04 * noise(draws, 1.0)
-        + 0.05 * noise(draws, 2.5)
-        + 0.1 * _patches(draws, 40, (4, 40))
-        - 0.06 * seams
-        - 0.16 * _cracks(draws, 60)
+    seams = np.tile((np.arange(SIDE) % 16 == 0).astype(np.float32), (SIDE, 1))
+    return _sum(
+        (0.04, noise(draws, 1.0)),
+        (0.05, noise(draws, 2.5)),
+        (0.1, _patches(draws, 40, (4, 40))),
+        (-0.06, seams),
+        (-0.16, _cracks(draws, 60)),
     )
 
 
 def _concrete(draws: np.random.Generator) -> Floats:
-    return (
-        0.03 * noise(draws, 1.0)
-        + 0.05 * noise(draws, 2.5)
-        + 0.05 * _slabs(draws, 16)
-        - 0.18 * _joints(16)
+    return _sum(
+        (0.03, noise(draws, 1.0)),
+        (0.05, noise(draws, 2.5)),
+        (0.05, _slabs(draws, 16)),
+        (-0.18, _joints(16)),
     )
 
 
 def _field(draws: np.random.Generator) -> Floats:
     rows = _stripes(8, 6.0 * noise(draws, 2.5))
-    return 0.06 * noise(draws, 1.0) + 0.07 * noise(draws, 2.5) + 0.03 * rows
+    return _sum((0.06, noise(draws, 1.0)), (0.07, noise(draws, 2.5)), (0.03, rows))
 
 
 def _foliage(draws: np.random.Generator) -> Floats:
-    return 0.12 * noise(draws, 0.5) + 0.12 * noise(draws, 2.0)
+    return _sum((0.12, noise(draws, 0.5)), (0.12, noise(draws, 2.0)))
 
 
 def _water(draws: np.random.Generator) -> Floats:
-    return 0.05 * noise(draws, 1.5, 0.3) + 0.03 * noise(draws, 2.5)
+    return _sum((0.05, noise(draws, 1.5, 0.3)), (0.03, noise(draws, 2.5)))
 
 
 def _wall(draws: np.random.Generator) -> Floats:
-    streaks = noise(draws, 2.0, 0.2)
-    return 0.04 * _slabs(draws, 8) - 0.08 * _joints(8) + 0.04 * streaks + 0.03 * noise(draws, 2.0)
-
-
-def _cloud(draws: np.random.Generator) -> Floats:
-    return 0.05 * noise(draws, 2.0)
-
-
-def _skin(draws: np.random.Generator) -> Floats:
-    return (
-        0.03 * _slabs(draws, 32)
-        - 0.1 * _joints(32)
-        + 0.03 * noise(draws, 1.0)
-        + 0.05 * noise(draws, 2.0, 0.2)
+    return _sum(
+        (0.04, _slabs(draws, 8)),
+        (-0.08, _joints(8)),
+        (0.04, noise(draws, 2.0, 0.2)),
+        (0.03, noise(draws, 2.0)),
     )
 
 
+def _skin(draws: np.random.Generator) -> Floats:
+    return _sum(
+        (0.03, _slabs(draws, 32)),
+        (-0.1, _joints(32)),
+        (0.03, noise(draws, 1.0)),
+        (0.05, noise(draws, 2.0, 0.2)),
+    )
+
+
+def _sum(*parts: tuple[float, Floats]) -> Floats:
+    total: Floats = np.sum(
+        [np.float32(share) * field for share, field in parts], axis=0, dtype=np.float32
+    )
+    return total
+
+
 def _of_noise(part: float, slope: float) -> Pattern:
-    return lambda draws: part * noise(draws, slope)
+    return lambda draws: _sum((part, noise(draws, slope)))
 
 
 FINE = Grain(
@@ -224,7 +233,7 @@ COARSE = Grain(
         Material.FOLIAGE: _of_noise(0.06, 1.5),
         Material.WATER: _of_noise(0.03, 2.0),
         Material.CLOUD: _of_noise(0.05, 2.0),
-        Material.DECK: lambda draws: DECK_VARIES * noise(draws, 2.5),
+        Material.DECK: _of_noise(DECK_VARIES, 2.5),
     },
 )
 """16 km: soils and winds."""
@@ -274,7 +283,12 @@ def on_surface(material: npt.NDArray[np.int32], place_m: Floats, footprint_m: Fl
     return Places(material, right + up, ahead + up, footprint_m)
 
 
-def deck(towards: Floats, eye_m: Sequence[float], pixel_rad: float) -> Floats:
+def deck_from(cover: float) -> float:
+    """Return how many deviations of its thickness a deck is thicker where it is seen."""
+    return float(scipy.special.ndtri(1.0 - min(max(cover, 1e-3), 1.0 - 1e-3)))
+
+
+def deck(towards: Floats, eye_m: Sequence[float], pixel_rad: float, cover: float) -> Floats:
     """Return what share of the sky the deck of clouds hides, shape (n,).
 
     Parameters
@@ -283,6 +297,8 @@ def deck(towards: Floats, eye_m: Sequence[float], pixel_rad: float) -> Floats:
         Unit vectors upwards, shape (3, n).
     eye_m
         Place of the camera: east, north, up.
+    cover
+        Share of the sky in which the deck is seen.
     """
     above = max(DECK_M - eye_m[2], 0.0)
     away = np.float32(above) / np.maximum(towards[2], np.float32(1e-3))
@@ -294,10 +310,11 @@ def deck(towards: Floats, eye_m: Sequence[float], pixel_rad: float) -> Floats:
     material = np.full(len(away), Material.DECK, dtype=np.int32)
     size = _binary_size(away)
     found = _looked_up(tiles()[2], Places(material, east, north, away), size, material * LEVELS)
-    found -= np.float32(1.0 + DECK_FROM * DECK_VARIES)
+    found -= np.float32(1.0 + deck_from(cover) * DECK_VARIES)
     found *= np.float32(DECK_OPAQUE / DECK_VARIES)
     # Towards the horizon it is lost in the haze.
-    return np.clip(found, 0.0, DECK_MOST) * np.clip(4.0 * towards[2], 0.0, 1.0)
+    hidden = np.clip(found, 0.0, DECK_MOST) * np.clip(4.0 * towards[2], 0.0, 1.0)
+    return np.asarray(hidden)
 
 
 def _binary_size(footprint_m: Floats) -> npt.NDArray[np.int32]:
@@ -318,7 +335,8 @@ def factors(places: Places) -> Floats:
     found *= _looked_up(coarse, places, size, first)
     near = np.flatnonzero(size < NEAR)
     if len(near):
-        fine = Places(*(each[near] for each in places))
+        material, east, north, footprint = places
+        fine = Places(material[near], east[near], north[near], footprint[near])
         found[near] *= _looked_up(tiles()[0], fine, size[near], first[near])
     return found
 

@@ -1,0 +1,100 @@
+"""Surfaces vary about their colours, and clouds cover the sky, as much as a scenario says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from airhilt.imaging.view import Intrinsics, Pose, View
+from airhilt.sensors.cameras.renderers import open_renderer
+from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.sensors.cameras.scene.textures import SIDE, Places, factors
+from airhilt.shapes.material import Material
+from airhilt.shapes.mesh import Mesh
+from breadth import examples
+
+CLEAR = Illumination(np.array((0.3, 0.2, 0.93)), visibility_m=60_000.0, overcast=0.0)
+LENS = Intrinsics(160, 90, 1.0)
+OVER_GROUND = View(LENS, Pose.of((0.0, 0.0, 60.0), 0.0, -0.8))
+INTO_THE_SKY = View(LENS, Pose.of((0.0, 0.0, 60.0), 0.0, 0.6))
+
+
+def ground(material: Material) -> Mesh:
+    far = 60_000.0
+    square = ((-far, -far, 0.0), (far, -far, 0.0), (far, far, 0.0), (-far, far, 0.0))
+    return Mesh.of(square, ((0, 1, 2), (0, 2, 3)), (0.2, 0.2, 0.2)).made_of(material)
+
+
+def picture(material: Material, light: Illumination, view: View) -> npt.NDArray[np.float64]:
+    _, renderer = open_renderer("embree", ground(material), {}, light)
+    return renderer.landscape(view, view.whole).colour.astype(float)
+
+
+@pytest.mark.parametrize("material", [each for each in Material if each is not Material.DECK])
+def test_a_surface_varies_about_its_colour_and_keeps_it(material: Material) -> None:
+    flat, half, full = (
+        picture(material, replace(CLEAR, texture=texture), OVER_GROUND)
+        for texture in (0.0, 0.5, 1.0)
+    )
+    assert flat.std(axis=(0, 1)).max() < 1.0
+    assert half.std() < full.std()
+    assert full.mean() == pytest.approx(flat.mean(), rel=0.06)
+
+
+def test_a_texture_is_the_same_in_every_renderer_that_is_opened() -> None:
+    light = replace(CLEAR, texture=1.0, clouds=0.5)
+    for view in (OVER_GROUND, INTO_THE_SKY):
+        once, again = (picture(Material.GRASS, light, view) for _ in range(2))
+        assert np.array_equal(once, again)
+
+
+@examples(60)
+@given(
+    east=st.floats(-20_000.0, 20_000.0),
+    north=st.floats(-20_000.0, 20_000.0),
+    material=st.sampled_from(Material),
+)
+def test_a_place_is_as_bright_from_afar_as_its_surroundings_on_average(
+    east: float, north: float, material: Material
+) -> None:
+    across = np.arange(64) - 31.5
+    columns, rows = (each.ravel().astype(np.float32) for each in np.meshgrid(across, across))
+    kind = np.full(columns.shape, material, dtype=np.int32)
+    near = factors(Places(kind, columns + np.float32(round(east / 64.0) * 64.0 + 32.0),
+                          rows + np.float32(round(north / 64.0) * 64.0 + 32.0),
+                          np.full(columns.shape, 1.0, dtype=np.float32)))  # fmt: skip
+    from_afar = factors(
+        Places(
+            kind[:1],
+            np.array([round(east / 64.0) * 64.0 + 32.0], dtype=np.float32),
+            np.array([round(north / 64.0) * 64.0 + 32.0], dtype=np.float32),
+            np.array([64.0], dtype=np.float32),
+        )
+    )
+    assert from_afar[0] == pytest.approx(near.mean(), abs=0.1)
+
+
+def test_from_very_far_nothing_varies() -> None:
+    places = np.linspace(-1e6, 1e6, 50, dtype=np.float32)
+    kind = np.full(50, Material.GRASS, dtype=np.int32)
+    size = np.full(50, 64.0 * SIDE, dtype=np.float32)
+    assert factors(Places(kind, places, places, size)) == pytest.approx(np.ones(50), abs=1e-3)
+
+
+def test_more_cover_hides_more_of_the_blue_and_none_hides_nothing() -> None:
+    blue, some, much = (
+        picture(Material.GRASS, replace(CLEAR, clouds=cover), INTO_THE_SKY)
+        for cover in (0.0, 0.3, 0.9)
+    )
+    changed = [(np.abs(cloudy - blue).max(axis=2) > 3.0).mean() for cloudy in (some, much)]
+    assert 0.05 < changed[0] < changed[1]
+    overcast = replace(CLEAR, overcast=1.0)
+    assert np.array_equal(
+        picture(Material.GRASS, replace(overcast, clouds=0.9), INTO_THE_SKY),
+        picture(Material.GRASS, overcast, INTO_THE_SKY),
+    )
