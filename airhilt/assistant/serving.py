@@ -199,6 +199,8 @@ def _picture(text: str) -> Image.Image:
         if picture.width * picture.height > MOST_PIXELS:
             raise AirhiltError(f"image: more than {MOST_PIXELS:,} pixels; expected no more")
         picture.load()
-    except (binascii.Error, UnidentifiedImageError, OSError, SyntaxError) as error:
+    except UnidentifiedImageError:
+        raise AirhiltError("image: no PNG; expected PNG in base64") from None
+    except (binascii.Error, OSError, SyntaxError) as error:
         raise AirhiltError(f"image: {error}; expected PNG in base64") from None
     return picture

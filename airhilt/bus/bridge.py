@@ -39,7 +39,9 @@ Publish = Callable[[str, Message], None]
 """Publishes a message on a key below the run."""
 
 
-def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
+def options(
+    documentation: str | None, port: int, role: Role = "observer"
+) -> argparse.ArgumentParser:
     """Return a parser of the options that all bridges have.
 
     Parameters
@@ -48,12 +50,14 @@ def options(documentation: str | None, port: int) -> argparse.ArgumentParser:
         Docstring of the bridge.
     port
         Default of the option ``--port``.
+    role
+        Role of the bridge in a run with keys.
     """
     parser = argparse.ArgumentParser(
         description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--connect", help="the run's endpoint, if not that of the keys")
-    parser.add_argument("--tls", type=Path, help="folder with observer.json of `airhilt keys init`")
+    parser.add_argument("--tls", type=Path, help=f"folder with {role}.json of `airhilt keys init`")
     parser.add_argument("--run", help="name of the run, where a router leads to several")
     parser.add_argument("--port", type=int, default=port, help=f"default: {port}")
     return parser
@@ -235,7 +239,7 @@ def feed_reports(
     decode
         Returns the reports in the next bytes of the receiver.
     """
-    parser = options(documentation, port)
+    parser = options(documentation, port, "operator")
     parser.add_argument(
         "--from", dest="host", default="127.0.0.1", metavar="HOST", help="default: 127.0.0.1"
     )

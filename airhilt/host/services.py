@@ -133,7 +133,7 @@ class HttpService:
         except (TimeoutError, httpx.TimeoutException):
             raise self.error(
                 f"has not answered for {self._timeout_s:g} s",
-                "an answer in that time; give it longer, or choose a faster service",
+                "an answer in that time; choose a faster service, or a smaller model",
             ) from None
         except httpx.ConnectError as error:
             raise self.error(f"is not there: {error}", "a service that answers") from None
