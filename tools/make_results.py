@@ -1,13 +1,13 @@
-"""Makes docs/results.md whole: its runs, its tables and figures, its hashes and its commit.
+"""Makes docs/results.md and the pages of its sections: runs, tables, figures, hashes, commit.
 
-    python tools/make_results.py                    run what is missing, and make the page
-    python tools/make_results.py --page-only        make the page of what is there
-    python tools/make_results.py --only paper       run one section, and make the page
+    python tools/make_results.py                    run what is missing, and make the pages
+    python tools/make_results.py --page-only        make the pages of what is there
+    python tools/make_results.py --only paper       run one section, and make the pages
     python tools/make_results.py --seeds 5 --encounters 200
     python tools/make_results.py --cameras          with cameras, which takes far longer
 
 It says what it will take before it begins. The same command goes on where it was stopped. The texts
-of the page are in tools/results, its sections in tools/results/sections.py.
+of the pages are in tools/results, its sections in tools/results/sections.py.
 """
 
 from __future__ import annotations

@@ -300,7 +300,7 @@ def connections(host: str, port: int) -> Iterator[socket.socket]:
         time.sleep(RETRY_S)
 
 
-def datagrams(host: str, port: int) -> Callable[[bytes], None]:
+def datagrams(host: str, port: int, named_by: str = "--to and --port") -> Callable[[bytes], None]:
     """Return what sends UDP datagrams to a host, or to all hosts at a broadcast address.
 
     Nobody has to listen there: what cannot be sent is lost.
@@ -310,7 +310,7 @@ def datagrams(host: str, port: int) -> Callable[[bytes], None]:
     BusError
         There is no such host or port.
     """
-    family, address = address_of(host, port, "--to and --port")
+    family, address = address_of(host, port, named_by)
     sender = socket.socket(family, socket.SOCK_DGRAM)
     sender.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
     sender.setblocking(False)

@@ -16,10 +16,12 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
 from datetime import UTC, datetime, timedelta
 from importlib.util import find_spec
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
+from scipy.spatial.transform import Rotation
 
 from airhilt import run
 from airhilt.bus import free_endpoint
@@ -35,6 +37,7 @@ from airhilt.bus.bridge import (
 from airhilt.bus.session import Bus
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.errors import BusError
+from airhilt.geodesy.wgs84 import earth_centred, horizontal_axes, vertical
 from airhilt.host import library
 from airhilt.messages import (
     ActorTruth,
@@ -217,44 +220,123 @@ class TestFlightGear:
 
     def test_gear_and_flaps_are_those_of_the_instruments_of_the_aircraft(self) -> None:
         aircraft = bridge("flightgear.py")["Aircraft"]("AAL123")
-        assert wheels_and_flaps(aircraft.packet(TRUTH)) == (0.0, 0.0)
+        aircraft.hear(TRUTH, 0.0)
+        assert wheels_and_flaps(aircraft.packet(0.0)) == (0.0, 0.0)
         aircraft.read(INSTRUMENTS.model_copy(update={"callsign": "UAL7", "flaps": 0.1}))
         aircraft.read(INSTRUMENTS)
-        assert wheels_and_flaps(aircraft.packet(TRUTH)) == (1.0, 0.75)
+        assert wheels_and_flaps(aircraft.packet(0.0)) == (1.0, 0.75)
+
+    def test_the_aircraft_goes_on_between_two_states_as_it_moved_and_turned(self) -> None:
+        aircraft = bridge("flightgear.py")["Aircraft"]("AAL123")
+        later = {"t_ns": 200_000_000, "roll_deg": -9.0, "heading_deg": 1.0}
+        aircraft.hear(TRUTH.model_copy(update={"heading_deg": 359.0}), 50.0)
+        aircraft.hear(TRUTH.model_copy(update=later), 50.2)
+        at_once, soon, in_a_pause, in_a_long_pause = (
+            shown(aircraft.packet(now_s)) for now_s in (50.2, 50.3, 50.7, 60.0)
+        )
+        assert soon["north_m"] - at_once["north_m"] == pytest.approx(6.096, abs=0.02)
+        assert at_once["altitude_m"] - soon["altitude_m"] == pytest.approx(0.3048)
+        assert (soon["roll_deg"], soon["heading_deg"]) == pytest.approx((-8.5, 2.0), abs=1e-4)
+        assert in_a_pause == in_a_long_pause
+
+    def test_jitter_of_what_arrives_moves_nothing_much(self) -> None:
+        aircraft = bridge("flightgear.py")["Aircraft"]("AAL123")
+        places = []
+        for count in range(50):
+            now_s, place = 0.2 * count, 38.9 + 12.192 * count / 111_000.0
+            update = {"t_ns": count * 200_000_000, "latitude_deg": place}
+            aircraft.hear(TRUTH.model_copy(update=update), now_s + 0.04 * (count % 3))
+            places.append(shown(aircraft.packet(now_s + 0.15))["north_m"])
+        steps = [after - before for before, after in pairwise(places[10:])]
+        assert max(steps) - min(steps) < 1.5
 
     def test_an_aircraft_that_never_comes_is_named(self) -> None:
         aircraft = bridge("flightgear.py")["Aircraft"]("TYPO")
-        aircraft.packet(TRUTH)
+        aircraft.hear(TRUTH, 0.0)
         assert aircraft.missing().startswith("no report of TYPO yet")
-        aircraft.packet(TRUTH.model_copy(update={"actor": "TYPO"}))
+        assert aircraft.packet(0.0) is None
+        aircraft.hear(TRUTH.model_copy(update={"actor": "TYPO"}), 0.0)
         assert aircraft.missing() is None
 
-    def test_only_the_chosen_aircraft_is_shown_until_the_run_ends(self) -> None:
+    def test_the_others_are_multiplayer_traffic_with_models_by_their_category(self) -> None:
+        others = bridge("flightgear.py")["Others"]("AAL123")
+        assert others.packet(TRUTH) is None
+        assert (
+            others.packet(TRUTH.model_copy(update={"actor": "D", "category": "wildlife"})) is None
+        )
+        other = TRUTH.model_copy(
+            update={"actor": "N310TWXYZ", "icao24": "a1b2c3", "t_ns": SECOND_NS}
+        )
+        others.read(REPORT.model_copy(update={"emitter_category": "A5"}))
+        packet = others.packet(other)
+        assert len(packet) == 232
+        assert struct.unpack_from(">4I", packet) == (0x46474653, 0x00010001, 7, 232)
+        assert packet[24:32] == b"N310TWX\0"
+        assert packet[32:128].rstrip(b"\0") == b"Aircraft/747/744-Default.xml"
+        assert struct.unpack_from(">2d", packet, 128) == (1.0, 0.2)
+        place = struct.unpack_from(">3d", packet, 144)
+        assert place == pytest.approx(
+            earth_centred((math.radians(38.9), math.radians(-77.0)), 304.8)
+        )
+        turn = Rotation.from_rotvec(struct.unpack_from(">3f", packet, 168))
+        forward, right, below = turn.as_matrix().T
+        east, north = horizontal_axes((math.radians(38.9), math.radians(-77.0)))
+        up = vertical((math.radians(38.9), math.radians(-77.0)))
+        assert math.degrees(math.atan2(forward @ east, forward @ north)) % 360 == pytest.approx(333)
+        assert math.degrees(math.asin(forward @ up)) == pytest.approx(2.5, abs=1e-4)
+        assert math.degrees(math.atan2(-(right @ up), -(below @ up))) == pytest.approx(
+            -10, abs=1e-4
+        )
+        along = struct.unpack_from(">3f", packet, 180)
+        assert turn.apply(along) @ north == pytest.approx(60.96, abs=1e-3)
+        assert turn.apply(along) @ up == pytest.approx(-3.048, abs=1e-3)
+
+    def test_the_chosen_aircraft_and_the_others_are_shown_until_the_run_ends(self) -> None:
         with ExitStack() as stack:
             bus = stack.enter_context(bus_of_a_run("recorder"))
-            simulator = stack.enter_context(socket.socket(type=socket.SOCK_DGRAM))
-            simulator.bind(("127.0.0.1", 0))
+            own, traffic = (
+                stack.enter_context(socket.socket(type=socket.SOCK_DGRAM)) for _ in range(2)
+            )
+            for simulator in (own, traffic):
+                simulator.bind(("127.0.0.1", 0))
             program = subprocess.Popen(
                 [
-                    *command("flightgear.py", bus.endpoint, simulator.getsockname()[1]),
-                    "--aircraft", "AAL123",
+                    *command("flightgear.py", bus.endpoint, own.getsockname()[1]),
+                    "--aircraft", "AAL123", "--traffic-port", str(traffic.getsockname()[1]),
                 ]
             )  # fmt: skip
-            other = TRUTH.model_copy(update={"actor": "UAL7", "altitude_m": 9000.0})
+            still = {f"velocity_{axis}_m_s": 0.0 for axis in ("north", "east", "down")}
+            chosen = TRUTH.model_copy(update=still)
+            other = chosen.model_copy(update={"actor": "UAL7", "altitude_m": 9000.0})
             heard: list[bytes] = []
+            others: list[bytes] = []
 
             def is_heard() -> bool:
-                for state in (other, TRUTH):
+                for state in (other, chosen):
                     key = f"truth/state/{state.actor}"
                     bus.put(key, state.model_dump_json().encode())
-                heard.extend(pieces(simulator))
-                return len(heard) > 2
+                heard.extend(pieces(own))
+                others.extend(pieces(traffic))
+                return len(heard) > 2 and len(others) > 2
 
             wait_until(is_heard)
             end = Clock(run="run", phase="finished", pace="1x")
             bus.put("clock", end.model_dump_json().encode())
             assert program.wait(timeout=LONG_S) == 0
         assert {struct.unpack_from(">d", packet, 24)[0] for packet in heard} == {304.8}
+        assert {packet[24:32].rstrip(b"\0") for packet in others} == {b"UAL7"}
+
+
+def shown(packet: bytes) -> dict[str, float]:
+    """Return where an aircraft is by a packet of the native FDM, and how it is turned."""
+    _, latitude_rad, altitude_m = struct.unpack_from(">3d", packet, 8)
+    roll_rad, _, heading_rad = struct.unpack_from(">3f", packet, 36)
+    return {
+        "north_m": latitude_rad * 6.36e6,
+        "altitude_m": altitude_m,
+        "roll_deg": math.degrees(roll_rad),
+        "heading_deg": math.degrees(heading_rad),
+    }
 
 
 def wheels_and_flaps(packet: bytes) -> tuple[float, float]:

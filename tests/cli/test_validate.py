@@ -66,7 +66,7 @@ def test_a_unit_on_the_emergency_channel_is_warned_of(airhilt_command: Cli, tmp_
     path.write_text(path.read_text().replace("134325", "121500"))
     done = airhilt_command("validate", path)
     assert done.returncode == 0
-    assert "'Washington Centre' works on 121500 kHz, which is for emergencies alone" in done.stderr
+    assert "'Washington Center' works on 121500 kHz, which is for emergencies alone" in done.stderr
 
 
 @pytest.mark.parametrize("seeds", ["0", "-1", "many"])

@@ -90,7 +90,7 @@ def test_every_call_and_every_voice_has_a_file_with_the_samples_of_the_log(
 
 def test_the_file_of_a_call_has_its_name(recorded: RunFolder) -> None:
     calls = [sound.id for sound in sounds_of(recorded) if isinstance(sound, Transmission)]
-    assert set(calls) >= {"check-in-aal", "check-in-dal", "controller.Washington_Centre.1"}
+    assert set(calls) >= {"check-in-aal", "check-in-dal", "controller.Washington_Center.1"}
     assert (recorded.audio_path / "check-in-aal.wav").is_file()
 
 
@@ -177,7 +177,7 @@ def test_a_disk_that_fills_up_with_sound_stops_the_run_and_keeps_its_log(
     assert "No space left" in folder.info().cause
     assert "No space left" in (folder.summary() or {})["outcome"]
     calls = [sound.id for sound in sounds_of(folder) if isinstance(sound, Transmission)]
-    assert set(calls) >= {"check-in-aal", "check-in-dal", "controller.Washington_Centre.1"}
+    assert set(calls) >= {"check-in-aal", "check-in-dal", "controller.Washington_Center.1"}
     assert (folder.audio_path / "check-in-aal.wav").is_file()
     assert not (folder.audio_path / "check-in-dal.wav").exists()
     assert replay(folder.path).identical

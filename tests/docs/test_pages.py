@@ -113,6 +113,16 @@ def test_published_schemas_are_those_of_the_code() -> None:
     assert json.loads((published / "scenario.json").read_text()) == Scenario.model_json_schema()
 
 
+def test_the_readme_on_a_package_index_has_no_links_into_the_repository() -> None:
+    hooks = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["metadata"]
+    text = (ROOT / "README.md").read_text()
+    for each in hooks["hooks"]["fancy-pypi-readme"]["substitutions"]:
+        text = re.sub(each["pattern"], each["replacement"], text)
+    assert "Apache-2.0](https://img" in text
+    assert "one JSON file |" in text
+    assert not re.search(r"\]\((?!https?:)", text)
+
+
 def test_every_extra_that_a_page_installs_exists() -> None:
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     pages = [*PAGES, ROOT / "bridges" / "README.md", ROOT / "CONTRIBUTING.md"]

@@ -83,7 +83,7 @@ def test_a_run_in_steps_leaves_the_log_of_a_whole_run(encounter: Scenario, tmp_p
     ("agent", "action", "key"),
     [
         ("assistant", [2, 0], "advisory/AAL123"),
-        ("tower", [2, 0], "seat/Washington_Centre/do"),
+        ("tower", [2, 0], "seat/Washington_Center/do"),
         ("AAL123", [2], "command/AAL123"),
     ],
 )

@@ -40,7 +40,7 @@ def line(at_s: float, command: Command) -> EffectiveLine:
     """A line that ends at a time, upon which the first aircraft does something."""
     scripted = ScriptedCommand(actor=FIRST, delay_s=0.0, command=command)
     said = RadioLine(
-        id=f"line{at_s:g}", at_s=at_s, speaker="Centre", frequency_khz=134_325,
+        id=f"line{at_s:g}", at_s=at_s, speaker="Center", frequency_khz=134_325,
         text="one", commands=(scripted,),
     )  # fmt: skip
     return EffectiveLine(said, said, 0.0, (), frozenset())
@@ -174,7 +174,7 @@ def test_the_planned_path_of_a_route_turns_with_it_and_goes_on_behind_its_end() 
 
 def spoken(name: str, from_s: float, to_s: float, frequency_khz: int = 134_325) -> SpokenTruth:
     return SpokenTruth(
-        id=name, speaker="Centre", addressed=FIRST, frequency_khz=frequency_khz,
+        id=name, speaker="Center", addressed=FIRST, frequency_khz=frequency_khz,
         text="say again", t_tx_ns=round(from_s * SECOND_NS), t_end_ns=round(to_s * SECOND_NS),
     )  # fmt: skip
 

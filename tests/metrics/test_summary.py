@@ -267,7 +267,7 @@ def plans(*climbs: tuple[float, int], rate_fpm: int | None = 1_500) -> Plans:
     """Plans of a script in which AA, a Cessna 172, is given levels (ft) at times (s)."""
     lines = [
         RadioLine(
-            id=f"line{number}", at_s=at_s, speaker="Centre", frequency_khz=134325 + number,
+            id=f"line{number}", at_s=at_s, speaker="Center", frequency_khz=134325 + number,
             text="one two three four five six seven eight",
             commands=(
                 ScriptedCommand(
@@ -369,7 +369,7 @@ def call(
 ) -> list[Any]:
     times = {"id": "a", "frequency_khz": 134_325, "t_tx_ns": 0, "t_end_ns": SECOND_NS}
     text = said or f"{SPOKEN}, maintain flight level three five zero"
-    truth = SpokenTruth(**times, speaker="Centre", addressed=FIRST, text=text, snr_db=snr_db)
+    truth = SpokenTruth(**times, speaker="Center", addressed=FIRST, text=text, snr_db=snr_db)
     messages = [truth, Transmission(**times, samples=16_000, snr_db=snr_db)]
     if heard is not None:
         transcript = Transcript(

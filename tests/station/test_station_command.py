@@ -82,7 +82,7 @@ def test_a_run_goes_on_without_the_station_and_another_station_stops_it(
     with stationed(runs) as (_, client):
         run = started(client, "running")
         assert run["name"] == name
-        assert run["seats"] == ["Washington Centre"]
+        assert run["seats"] == ["Washington Center"]
         while not [one for one in answer(client, "api/runs")["recorded"] if one["name"] == name]:
             time.sleep(0.2)
         refused = client.post("api/debriefs", json={"runs": [name]})

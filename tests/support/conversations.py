@@ -24,7 +24,7 @@ from seats import state_of
 
 W = TypeVar("W", bound="World")
 
-TOWER, KHZ = "Washington Centre", 134_325
+TOWER, KHZ = "Washington Center", 134_325
 CLIMB = {"action": "altitude", "altitude_ft": 33000}
 
 

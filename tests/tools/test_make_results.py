@@ -51,13 +51,13 @@ def write_section(work: Path, name: str, tables: Sequence[Table], code: Code = C
 
 
 def page_of(tmp_path: Path, text: str, shows_dirty: bool = False) -> str:
-    """Return a page of one section with a text."""
+    """Return the pages of one section with a text."""
     texts = tmp_path / "texts"
     texts.mkdir(exist_ok=True)
     written = {"introduction": "{commit}\n\n{overview}", "paper": text, "rows": "{rows}"}
     for name, each in written.items():
         (texts / f"{name}.md").write_text(each)
-    return Page.of([SECTION], tmp_path / "work", shows_dirty).text(texts)
+    return "".join(Page.of([SECTION], tmp_path / "work", shows_dirty).texts(texts).values())
 
 
 def flown(number: int, *_: object) -> list[Counts]:
@@ -116,9 +116,12 @@ def test_what_was_not_run_is_named_as_missing(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     words = ["--page-only", "--work", str(tmp_path / "work"), "--page", str(page)]
     assert make_results.main(words) == 0
-    text = page.read_text()
+    assert "missing: its runs are not made" in page.read_text()
+    text = (tmp_path / "results-paper.md").read_text()
     assert "**Missing: `comparison`, `variants`, `ranking`.** Its runs are not made" in text
-    assert text.count("**Missing: ") == len(SECTIONS)
+    texts = [one.read_text() for one in tmp_path.glob("results-*.md")]
+    assert len(texts) > len(SECTIONS)
+    assert all("**Missing: " in each for each in texts)
 
 
 def test_a_page_has_the_numbers_of_one_commit_unless_it_is_a_draft(tmp_path: Path) -> None:
@@ -137,7 +140,8 @@ def test_a_section_of_another_commit_is_missing(tmp_path: Path) -> None:
     (work / "full" / "code.json").write_text(json.dumps(made | {"made": "2000-01-01"}))
     write_section(work, "paper", preset_tables("paper"))
     Page.of(SECTIONS, work, shows_dirty=False).write(page)
-    assert "Its runs are of another commit, bbbbbbbb" in page.read_text()
+    missing = (tmp_path / "results-full.md").read_text()
+    assert "Its runs are of another commit, bbbbbbbb" in missing
 
 
 def preset_tables(name: str) -> Sequence[Table]:
@@ -169,11 +173,14 @@ def test_the_texts_name_what_the_sections_have_and_the_page_is_always_the_same(
         record.write_code(work / name, COMMIT)
     for page in pages:
         Page.of(SECTIONS, work, shows_dirty=False).write(page)
-    text = pages[0].read_text()
+    one, two = (
+        {path.name: path.read_text() for path in page.parent.glob("*.md")} for page in pages
+    )
+    assert one == two
+    text = "".join(one.values())
     assert "Missing" not in text
     assert "| 737  | climb_fpm | 2500 to 3500 | assumed | 2600.0 |" in text
     assert "2 of 2 (34 to 100 %)" in text
-    assert pages[1].read_text() == text
     pictures = sorted((tmp_path / "one" / IMAGES).glob("*.svg"))
     assert [picture.stem for picture in pictures] == ["full_ranking", "roc_roc"]
     for picture in pictures:

@@ -1,8 +1,10 @@
-"""The page, from its texts and from what is in the work folder.
+"""The page and those of its sections, from their texts and from what is in the work folder.
 
-A text has placeholders in braces. ``{table paper.comparison}`` and ``{figure full.averted}`` stand
-on a line of their own; ``{paper.seeds}`` is a fact of a section, and ``{paper.comparison.time to
-first warning, s.mean}`` the cell of a table: section, table, first cells of the row, column.
+A section has a page for each text that is called like it, such as ``full.md`` and
+``full_costs.md``. A text has placeholders in braces. ``{table paper.comparison}`` and
+``{figure full.averted}`` stand on a line of their own; ``{paper.seeds}`` is a fact of a section,
+and ``{paper.comparison.time to first warning, s.mean}`` the cell of a table: section, table, first
+cells of the row, column.
 """
 
 from __future__ import annotations
@@ -26,6 +28,13 @@ PLACEHOLDER = re.compile(r"\{([^{}]+)\}")
 TABLE_PLACEHOLDER = re.compile(r"\{table \w+\.(\w+)\}")
 IMAGES = "images/results"
 """Folder of the figures, from that of the page."""
+MAIN = "results"
+"""Name of the page that leads to the others."""
+FOOT = (
+    f"[Results]({MAIN}.md) has the commit of these numbers, how to read them, and the other "
+    "sections. All tables are made, and for looking things up."
+)
+"""Last words of the page of a section."""
 SHORT = 8
 """Number of characters of a commit in the text."""
 
@@ -57,41 +66,54 @@ class Page:
         code = max(shown, key=lambda code: code.made, default=None)
         return cls(sections, records, code, shows_dirty)
 
-    def text(self, texts: Path = TEXTS) -> str:
-        """Return the page as Markdown; figures are drawn into `figures`.
+    def texts(self, folder: Path = TEXTS) -> dict[str, str]:
+        """Return the pages as Markdown, by the names of their texts; the main one is `MAIN`.
+
+        Figures are drawn into `figures`.
 
         Raises
         ------
         AirhiltError
             A placeholder names nothing.
         """
-        names = ["introduction", *(each.name for each in self.sections), "rows"]
-        parts = []
-        for name in names:
-            text = (texts / f"{name}.md").read_text(encoding="utf-8").strip()
-            missing = self._missing(name)
-            parts.append(
-                _without_body(name, text, missing) if missing else self._filled(name, text)
-            )
-        records = [record for record in self.records.values() if record]
-        tables = [table for record in records for table in record.tables.values()]
-        return _with_notes_once("\n\n".join(parts), tables) + "\n"
+        main = [self._text(folder, name) for name in ("introduction", "rows")]
+        texts = {MAIN: "\n\n".join(main) + "\n"}
+        for section in self.sections:
+            more = sorted(path.stem for path in folder.glob(f"{section.name}_*.md"))
+            for name in (section.name, *more):
+                texts[name] = f"{self._text(folder, name, section.name)}\n\n{FOOT}\n"
+        return texts
 
-    def write(self, path: Path, texts: Path = TEXTS) -> None:
-        """Write the page, and its figures beside it."""
-        text, images = self.text(texts), path.parent / IMAGES
+    def _text(self, folder: Path, name: str, section: str = "") -> str:
+        """Return a text with its numbers, or with the reason why its section has none."""
+        text = (folder / f"{name}.md").read_text(encoding="utf-8").strip()
+        missing = self._missing(section)
+        if missing:
+            return _without_body(section, text, missing)
+        filled, record = self._filled(name, text), self.records.get(section)
+        if record is None:
+            return filled
+        noted = _with_notes_once(filled, record.tables.values())
+        return f"{noted}\n\n{_origin(record.code)}" if self._is_draft else noted
+
+    def write(self, path: Path, folder: Path = TEXTS) -> None:
+        """Write the page, those of the sections beside it, and their figures."""
+        texts, images = self.texts(folder), path.parent / IMAGES
         make_folder(images.parent)
         shutil.rmtree(images, ignore_errors=True)
         self.figures.write(images)
         for pdf in images.glob("*.pdf"):
             pdf.unlink()
-        replace_file(path, text.encode())
+        for old in path.parent.glob(file_name("*")):
+            old.unlink()
+        for name, text in texts.items():
+            replace_file(path if name == MAIN else path.parent / file_name(name), text.encode())
 
-    def _missing(self, name: str) -> str:
+    def _missing(self, section: str) -> str:
         """Return why a section is not shown, empty if it is."""
-        if name not in self.records:
+        if section not in self.records:
             return ""
-        record = self.records[name]
+        record = self.records[section]
         if record is None:
             return "its runs are not made"
         if self.shows_dirty:
@@ -103,7 +125,7 @@ class Page:
         return ""
 
     def _filled(self, name: str, text: str) -> str:
-        """Return a text with its placeholders filled, with a note if its code is not the page's."""
+        """Return a text with its placeholders filled."""
 
         def fill(found: re.Match[str]) -> str:
             value = self._value(found[1])
@@ -112,11 +134,7 @@ class Page:
                 raise AirhiltError(f"{where}: {found[0]} names nothing in the work folder")
             return value
 
-        filled = PLACEHOLDER.sub(fill, text)
-        record = self.records.get(name)
-        if record is None:
-            return filled
-        return f"{filled}\n\n{_origin(record.code)}" if self._is_draft else filled
+        return PLACEHOLDER.sub(fill, text)
 
     def _value(self, placeholder: str) -> str | None:
         """Return what stands in place of a placeholder; None if it names nothing."""
@@ -193,6 +211,11 @@ class Page:
         return _cell(table, row, column) if table else None
 
 
+def file_name(name: str) -> str:
+    """Return the file of the page that a text of a section becomes."""
+    return f"{MAIN}-{name.replace('_', '-')}.md"
+
+
 def _cell(table: Table, key: str, column: str) -> str | None:
     """Return the text of a cell; the key of its row is its first cells, with commas between."""
     found = [row for row in table.rows if _begins_with(row, key)]
@@ -216,7 +239,7 @@ def _plain(table: Table) -> str:
 
 
 def _with_notes_once(text: str, tables: Iterable[Table]) -> str:
-    """Return the text of the page; a note of several tables stays under the first of them."""
+    """Return the text of a page; a note of several tables stays under the first of them."""
     notes = {note for table in tables for note in table.notes}
     kept: list[str] = []
     for paragraph in text.split("\n\n"):

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from airhilt.messages import CONTROLLER, Severity
 from airhilt.phraseology import parse_call, tokens
+from airhilt.phraseology.aloud import ADDRESS
 from airhilt.phraseology.callsigns import Naming, roster_of
 from airhilt.phraseology.instruction_end import action_end
 from airhilt.phraseology.slots import NAMED_RUNWAY, designator
@@ -43,8 +44,6 @@ UNITS = {"s": "second", "seconds": "second", "second": "second", "feet": "feet",
 """Units after a number, by their spellings."""
 _CLAUSES = re.compile(r"[;,:]|\.(?![0-9])")
 _CALLSIGN = re.compile(r"\b(?=[A-Z0-9]*[0-9])[A-Z][A-Z0-9]{2,6}\b")
-_ADDRESS = re.compile(r"\b(?=[a-f]*[0-9])[0-9a-f]{6}\b")
-"""An icao24, which stands for a callsign that is not known."""
 _NUMBER = re.compile(r"[0-9]+")
 
 
@@ -129,7 +128,7 @@ def change(rule: str, reworded: str, recipient: str, severity: Severity) -> str:
     """
     if not SHAPE.fullmatch(reworded):
         return f"it has other characters than those of a message, or more than {LONGEST}"
-    names = {each: f"ICAO{n}" for n, each in enumerate(sorted(set(_ADDRESS.findall(rule))), 1)}
+    names = {each: f"ICAO{n}" for n, each in enumerate(sorted(set(ADDRESS.findall(rule))), 1)}
     rule, reworded, recipient = (_named(text, names) for text in (rule, reworded, recipient))
     callsigns = set(_CALLSIGN.findall(rule)) | ({recipient} - {CONTROLLER})
     was = reading(rule, recipient, callsigns)
@@ -233,7 +232,7 @@ def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Tol
 
 
 def _named(text: str, names: Mapping[str, str]) -> str:
-    return _ADDRESS.sub(lambda found: names.get(found[0], found[0]), text)
+    return ADDRESS.sub(lambda found: names.get(found[0], found[0]), text)
 
 
 def _listed(parts: Iterable[object]) -> str:

@@ -79,7 +79,7 @@ Topology = Literal["parallel", "asr_first", "gated_fusion"]
 class Radio(ReceptionSettings):
     """Radio calls in the order of time, and how well people hear each other."""
 
-    controller: Name = Field(default="Centre", description="name of the unit that listens")
+    controller: Name = Field(default="Center", description="name of the unit that listens")
     lines: tuple[RadioLine, ...] = Field(default=(), max_length=5000)
     words_per_minute: Number = Field(
         default=160.0, ge=60.0, le=400.0, description="speaking rate of calls without sound"

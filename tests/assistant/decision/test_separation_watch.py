@@ -152,6 +152,6 @@ def test_what_is_seen_while_nothing_is_told_counts_for_how_long_it_has_lasted() 
 )
 def test_the_minima_are_those_of_the_briefing(given: dict[str, Any], severity: str | None) -> None:
     sky = Sky(115.0)
-    sky.watch.take_briefing(Briefing(controller="Centre", roster=(), airport=None, **given))
+    sky.watch.take_briefing(Briefing(controller="Center", roster=(), airport=None, **given))
     sky.flies(0, 3, second_ft=35_500.0)
     assert [each for _, each in sky.severities()] == ([severity] if severity else [])

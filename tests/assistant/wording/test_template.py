@@ -8,6 +8,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.findings import LossOfSeparation, Occupied
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.messages import CONTROLLER, Climb, Evidence, HoldPosition, Severity
+from airhilt.phraseology.aloud import read_aloud
 
 OCCUPIED = Alert(
     id="01-DAL456",
@@ -46,3 +47,19 @@ def test_separation_that_is_lost_already_is_lost_in_no_time() -> None:
     alert = replace(OCCUPIED, kind="loss_of_separation", finding=finding, recommendations={})
     told = Template().message(alert, "AAL123")
     assert told == "AAL123 traffic DAL456, loss of separation in 0 s"
+
+
+def test_the_address_of_who_sends_no_callsign_is_written_but_not_spoken() -> None:
+    down = Climb(sense="descend", altitude_ft=34_400.0, vertical_rate_fpm=1500.0)
+    finding = LossOfSeparation(("AAL123", "a1b2c3"), 31.0)
+    alert = replace(OCCUPIED, finding=finding, recommendations={"AAL123": down, "a1b2c3": down})
+    told = {name: Template().message(alert, name) for name in ("AAL123", "a1b2c3", CONTROLLER)}
+    assert told["AAL123"].endswith(". Traffic unknown callsign a1b2c3, loss of separation in 31 s")
+    assert told["a1b2c3"].startswith("a1b2c3 descend to 34400 ft. Traffic AAL123")
+    assert told[CONTROLLER].startswith("AAL123 and unknown callsign a1b2c3 lose separation in 31 s")
+    aloud = {name: read_aloud(text, name, "faa") for name, text in told.items()}
+    assert aloud["AAL123"].endswith(". Traffic unknown callsign, loss of separation in 31 seconds")
+    assert aloud["a1b2c3"].startswith("unknown callsign, descend to flight level three four four")
+    occupied = Template().message(replace(alert, finding=Occupied("a1b2c3", "01")), "AAL123")
+    assert occupied.endswith(". Unknown callsign a1b2c3 is on runway 01")
+    assert "Unknown callsign is on runway one" in read_aloud(occupied, "AAL123", "faa")

@@ -42,7 +42,7 @@ def shown(kind: str, pose: Pose) -> Box:
     from the side are; points along the edges have those.
     """
     (drawn,) = RENDERER.parts(VIEW, [Part(kind, pose, VIEW.whole, SAMPLES)])
-    covered = np.isfinite(by_sample(drawn.distance_m, SAMPLES)).any(axis=0)
+    covered = np.asarray(np.isfinite(by_sample(drawn.distance_m, SAMPLES)).any(axis=0))
     outline = OUTLINES[kind]
     corners = VIEW.in_camera(outline.points @ pose.rotation.T + np.asarray(pose.position_m))
     start, end = corners[outline.edges[:, 0]], corners[outline.edges[:, 1]]

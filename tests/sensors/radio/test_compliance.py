@@ -56,14 +56,14 @@ def test_an_urgent_call_is_obeyed_after_the_time_of_the_response_model() -> None
     world = advised(world_of(AFTER_3_S), 30.0).run_until(60.0)
     (_, (callsign, command, at_s)) = world.done
     assert (callsign, command.altitude_ft) == ("AAL123", 34_000.0)
-    urgent = world.spoken("controller.Washington_Centre.1")
+    urgent = world.spoken("controller.Washington_Center.1")
     assert at_s == pytest.approx(urgent.t_end_ns / SECOND_NS + 3.0)
 
 
 def test_who_does_not_respond_to_an_urgent_call_is_told_of_once() -> None:
     world = advised(world_of(NEVER), 30.0).run_until(60.0)
     texts = [told for _, told, _ in world.done if isinstance(told, str)]
-    assert texts == ["does not respond to altitude (controller.Washington_Centre.1)"]
+    assert texts == ["does not respond to altitude (controller.Washington_Center.1)"]
     assert len(world.done) == 2
 
 
@@ -72,6 +72,6 @@ def test_a_crew_that_does_not_know_the_frequency_of_a_unit_asks_for_it_and_stays
     commands = [*CLEARANCE["commands"], {"actor": "AAL123", "command": contact}]
     world = World({**CLEARANCE, "commands": commands}, READBACK).run_until(60.0)
     question = world.spoken("clearance.contact")
-    assert question.text == "Washington Centre, American one twenty three, say frequency."
+    assert question.text == "Washington Center, American one twenty three, say frequency."
     assert question.frequency_khz == KHZ
     assert [command.action for _, command, _ in world.done] == ["altitude"]

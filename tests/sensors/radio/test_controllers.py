@@ -113,7 +113,7 @@ def test_who_is_advised_says_it_after_the_reaction_time_and_the_crew_does_what_i
 
 
 def test_a_crew_that_does_not_hear_the_call_does_nothing_and_it_is_made_again() -> None:
-    name = "controller.Washington_Centre.1"
+    name = "controller.Washington_Center.1"
     world = Tower(heard={(name, "AAL123"): MISSED}).advises(AAL123=UP).run_until(60.0)
     assert f"{name}.repeat-1" in world.said()
     ((_, _, at_s),) = world.done
@@ -121,7 +121,7 @@ def test_a_crew_that_does_not_hear_the_call_does_nothing_and_it_is_made_again() 
 
 
 def test_a_crew_that_mishears_the_call_does_what_it_has_heard_until_it_is_corrected() -> None:
-    name = "controller.Washington_Centre.1"
+    name = "controller.Washington_Center.1"
     heard = Heard("misheard", "American one two three, climb flight level three eight zero.")
     world = Tower(heard={(name, "AAL123"): heard}).advises(AAL123=UP).run_until(60.0)
     assert [command.altitude_ft for _, command, _ in world.done] == [38_000.0, 34_000.0]
@@ -233,7 +233,7 @@ def test_what_was_read_back_rightly_since_is_not_corrected_by_a_new_advisory() -
 
 def test_what_is_read_back_wrongly_is_said_three_times_at_most() -> None:
     read = Heard("understood", "Climb flight level three eight zero, American one two three.")
-    names = [f"controller.Washington_Centre.{each}.readback" for each in (1, 2, 3, 4)]
+    names = [f"controller.Washington_Center.{each}.readback" for each in (1, 2, 3, 4)]
     heard = dict.fromkeys(((name, TOWER) for name in names), Heard("misheard", read.text))
     world = Tower(heard=heard).advises(AAL123=UP).run_until(120.0)
     assert len(world.calls()) == 3
@@ -248,7 +248,7 @@ def test_a_line_of_the_script_waits_for_the_readback_of_a_correction() -> None:
 
 
 def test_a_line_of_the_script_is_said_if_nobody_answers_a_correction() -> None:
-    name = "controller.Washington_Centre.1"
+    name = "controller.Washington_Center.1"
     every = (name, f"{name}.repeat-1", f"{name}.repeat-2")
     heard = dict.fromkeys(((each, "AAL123") for each in every), MISSED)
     world = Tower(CLEARANCE, WRONG, ROGER, heard=heard)
@@ -379,8 +379,8 @@ def test_nobody_speaks_for_the_person_at_the_unit_until_the_person_leaves() -> N
 
     def acts(at_s: float, act: Any) -> None:
         message = SeatAction(t_ns=seconds_to_ns(at_s), holder="somebody", act=act)
-        world.gets(message, "seat/Washington_Centre/do")
-        take = partial(world.seats.take, "seat/Washington_Centre/do", message, b"")
+        world.gets(message, "seat/Washington_Center/do")
+        take = partial(world.seats.take, "seat/Washington_Center/do", message, b"")
         world.director.at(message.t_ns, take, Priority.PHYSICS)
 
     acts(1.0, TakeSeat())

@@ -65,7 +65,7 @@ def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that() -
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("unit", ["Atlanta Centre", "Washington Centre"])
+@pytest.mark.parametrize("unit", ["Atlanta Center", "Washington Center"])
 def test_an_answer_that_tells_somebody_to_act_is_made_again_if_it_is_missed(unit: str) -> None:
     check = line("check", 2, "DAL456", unit, f"{unit}, Delta four five six.")
     answer = line(

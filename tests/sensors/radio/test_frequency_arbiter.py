@@ -20,7 +20,7 @@ from airhilt.units import SECOND_NS, seconds_to_ns
 def call(
     name: str,
     at_s: float,
-    speaker: str = "Centre",
+    speaker: str = "Center",
     frequency_khz: int = 134_325,
     listens_first: bool = True,
     words: int = 8,

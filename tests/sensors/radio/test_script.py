@@ -29,7 +29,7 @@ def line(
 ) -> EffectiveLine:
     text = " ".join(["word"] * words)
     declared = RadioLine(
-        id=name, at_s=at_s, speaker="Centre", frequency_khz=frequency_khz, text=text, when=when
+        id=name, at_s=at_s, speaker="Center", frequency_khz=frequency_khz, text=text, when=when
     )
     failures = ("it fails",) if late_s or dropped else ()
     return EffectiveLine(declared, None if dropped else declared, late_s, failures, frozenset())

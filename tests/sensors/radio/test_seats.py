@@ -222,7 +222,7 @@ def test_no_mistake_is_drawn_for_a_person() -> None:
 
 def test_a_person_whose_call_was_blocked_is_told_so() -> None:
     world = crew(line("over", 20, TOWER, None, "All stations, hello to you all."))  # type: ignore[arg-type]
-    world.says(20.0, "AAL123", "Centre, American 123, request descent").run_until(40.0)
+    world.says(20.0, "AAL123", "Center, American 123, request descent").run_until(40.0)
     assert world.notices("AAL123") == [
         "Your call was blocked: somebody else was on the air at the same time."
     ]

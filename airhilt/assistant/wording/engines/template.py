@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.findings import (
     Announcement,
@@ -17,6 +19,7 @@ from airhilt.assistant.decision.findings import (
 )
 from airhilt.engines import Engine
 from airhilt.messages import CONTROLLER, Climb, MaintainLevel, Recommendation, Turn
+from airhilt.phraseology.aloud import ADDRESS, UNKNOWN
 
 OVER = "clear of conflict"
 STANDARD_RATE_FPM = 1500.0
@@ -37,27 +40,31 @@ class Template:
 
     def message(self, alert: Alert, recipient: str) -> str:
         """Return what one recipient of an alert is told."""
-        if not alert.active:
-            return OVER
-        match alert.finding:
-            case LossOfSeparation() as loss:
-                return _loss_of_separation(alert, loss, recipient)
-            case LevelMisread() as misread:
-                return f"{misread.callsign} {misread.statement()}"
-            case Unclear() as unclear:
-                return f"confirm {unclear.statement()}, traffic {unclear.traffic}"
-            case Intruder() as intruder:
-                return _intruder(alert, intruder, recipient)
-            case Announcement(aural=aural):
-                turn = alert.recommendations.get(recipient)
-                return f"{aural}, {_action(turn)}" if isinstance(turn, Turn) else aural
-            case None:
-                kind = f"{alert.kind.replace('_', ' ')}, {' and '.join(alert.traffic)}"
-                return _on_ground(alert, recipient, alert.evidence.note or kind)
-            case Obstruction() as obstruction if recipient not in (obstruction.user, CONTROLLER):
-                return _on_ground(alert, recipient, obstruction.statement_of_use())
-            case finding:
-                return _on_ground(alert, recipient, finding.statement())
+        return _with_unknown(_message(alert, recipient), recipient)
+
+
+def _message(alert: Alert, recipient: str) -> str:
+    if not alert.active:
+        return OVER
+    match alert.finding:
+        case LossOfSeparation() as loss:
+            return _loss_of_separation(alert, loss, recipient)
+        case LevelMisread() as misread:
+            return f"{misread.callsign} {misread.statement()}"
+        case Unclear() as unclear:
+            return f"confirm {unclear.statement()}, traffic {unclear.traffic}"
+        case Intruder() as intruder:
+            return _intruder(alert, intruder, recipient)
+        case Announcement(aural=aural):
+            turn = alert.recommendations.get(recipient)
+            return f"{aural}, {_action(turn)}" if isinstance(turn, Turn) else aural
+        case None:
+            kind = f"{alert.kind.replace('_', ' ')}, {' and '.join(alert.traffic)}"
+            return _on_ground(alert, recipient, alert.evidence.note or kind)
+        case Obstruction() as obstruction if recipient not in (obstruction.user, CONTROLLER):
+            return _on_ground(alert, recipient, obstruction.statement_of_use())
+        case finding:
+            return _on_ground(alert, recipient, finding.statement())
 
 
 def _loss_of_separation(alert: Alert, loss: LossOfSeparation, recipient: str) -> str:
@@ -87,9 +94,21 @@ def _told(alert: Alert, recipient: str, why: str) -> str:
 
 
 def _sentence(words: str) -> str:
-    """Return words with a capital letter, unless they begin with an address, such as a1b2c3."""
+    """Return words with a capital letter, unless they begin with a callsign or an icao24."""
     first = words.split(" ", 1)[0]
     return words[0].upper() + words[1:] if first.isalpha() else words
+
+
+def _with_unknown(text: str, recipient: str) -> str:
+    """Return a text that says of each icao24, but that of its recipient, that it is one."""
+
+    def named(found: re.Match[str]) -> str:
+        if found[0] == recipient:
+            return found[0]
+        begins = text[: found.start()].endswith(". ")
+        return f"{UNKNOWN.capitalize() if begins else UNKNOWN} {found[0]}"
+
+    return ADDRESS.sub(named, text)
 
 
 def _with_advice(text: str, alert: Alert) -> str:
