@@ -236,15 +236,22 @@ class ConflictMonitor:
     def _roughly_near(
         self, moving: Sequence[_Moving], far_m: float, far_up_m: float
     ) -> Iterator[tuple[_Moving, _Moving]]:
-        """Yield the pairs that are always watched, or not too far apart in altitude and latitude.
+        """Yield the pairs that are always watched, or not too far apart in one of three directions.
 
-        Most pairs of many are far apart, and arrays find them out at once.
+        The distance to the east of `relative` is at least that at the latitude nearer a pole. Most
+        pairs of many are far apart, and arrays find them out at once.
         """
         altitudes_m = np.array([each.state.altitude_m for each in moving])
         latitudes_rad = np.array([each.state.latitude_rad for each in moving])
         is_far = np.abs(np.subtract.outer(altitudes_m, altitudes_m)) > far_up_m
         north_rad = np.abs(np.subtract.outer(latitudes_rad, latitudes_rad))
         is_far |= north_rad * LEAST_CURVATURE_RADIUS_M > far_m
+        longitudes_rad = np.array([each.state.longitude_rad for each in moving])
+        turn_rad = np.abs(np.subtract.outer(longitudes_rad, longitudes_rad))
+        turn_rad = np.minimum(turn_rad, math.tau - turn_rad)
+        across = np.cos(latitudes_rad)
+        east_rad = turn_rad * np.minimum.outer(across, across)
+        is_far |= east_rad * LEAST_CURVATURE_RADIUS_M > far_m
         places = {each.name: place for place, each in enumerate(moving)}
         for one, other in self._always:
             if one in places and other in places:
