@@ -246,16 +246,16 @@ class ConflictMonitor:
         is_far = np.abs(np.subtract.outer(altitudes_m, altitudes_m)) > far_up_m
         north_rad = np.abs(np.subtract.outer(latitudes_rad, latitudes_rad))
         is_far |= north_rad * LEAST_CURVATURE_RADIUS_M > far_m
+        one, two = np.nonzero(~is_far)
         longitudes_rad = np.array([each.state.longitude_rad for each in moving])
-        turn_rad = np.abs(np.subtract.outer(longitudes_rad, longitudes_rad))
-        turn_rad = np.minimum(turn_rad, math.tau - turn_rad)
+        turn_rad = np.abs(longitudes_rad[one] - longitudes_rad[two])
         across = np.cos(latitudes_rad)
-        east_rad = turn_rad * np.minimum.outer(across, across)
-        is_far |= east_rad * LEAST_CURVATURE_RADIUS_M > far_m
+        east_rad = np.minimum(turn_rad, math.tau - turn_rad) * np.minimum(across[one], across[two])
+        is_far[one, two] = east_rad * LEAST_CURVATURE_RADIUS_M > far_m
         places = {each.name: place for place, each in enumerate(moving)}
-        for one, other in self._always:
-            if one in places and other in places:
-                is_far[places[one], places[other]] = False
+        for name, other in self._always:
+            if name in places and other in places:
+                is_far[places[name], places[other]] = False
         for place, later in np.argwhere(np.triu(~is_far, 1)).tolist():
             yield moving[place], moving[later]
 
