@@ -24,7 +24,7 @@ from airhilt.commands import (
     TurnCommand,
 )
 from airhilt.geodesy.relative_motion import VerticalProfile
-from airhilt.geodesy.wgs84 import Place, offset_m
+from airhilt.geodesy.wgs84 import Place, earth_centred, offset_m
 from airhilt.messages import ActorTruth
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.surveillance.tcas import AltitudeAt
@@ -147,4 +147,5 @@ def _from_track_m(begin: Place, track_rad: float, here: Place) -> float:
 
 
 def _from_legs_m(legs: Sequence[Leg], here: Place) -> float:
-    return min(leg.distance_m(here, is_last=leg is legs[-1]) for leg in legs)
+    place = earth_centred(here)
+    return min(leg.distance_m(place, is_last=leg is legs[-1]) for leg in legs)

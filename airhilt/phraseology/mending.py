@@ -108,12 +108,12 @@ def mend_by_sound(texts: list[str], confidences: list[float]) -> None:
     for at, word in others:
         if at == 0 or texts[at - 1] in _BEFORE_FIX:
             continue
-        found = candidates(word)
-        if found and not _is_operators(word, texts[at + 1 : at + 2]):
-            before, after = " ".join(texts[max(at - 6, 0) : at]), " ".join(texts[at + 1 : at + 7])
-            target = next((each for each in found if _fits(each, before, after)), None)
-            if target is not None:
-                texts[at] = target
+        before, after = " ".join(texts[max(at - 6, 0) : at]), " ".join(texts[at + 1 : at + 7])
+        fitting = {target for target in _TARGETS if _fits(target, before, after)}
+        if fitting and not _is_operators(word, texts[at + 1 : at + 2]):
+            meant = next((each for each in candidates(word) if each in fitting), None)
+            if meant is not None:
+                texts[at] = meant
                 confidences[at] *= FITTED
 
 
@@ -123,4 +123,4 @@ def _is_operators(word: str, following: list[str]) -> bool:
 
 
 def _fits(target: str, before: str, after: str) -> bool:
-    return any(left.match(before) and right.match(after) for left, right in _FITS[target])
+    return any(right.match(after) and left.match(before) for left, right in _FITS[target])

@@ -50,6 +50,7 @@ class Leg:
         self.length_m = math.sqrt(dot(chord, chord))
         self._origin = a
         self._end = b
+        self._forward = _unit(chord)
         self._forward_at_end = _cross(vertical(end), self.right)
 
     def cross_track_m(self, state: AircraftState) -> float:
@@ -82,10 +83,10 @@ class Leg:
         )
         return math.atan2(-right_north, right_east)
 
-    def distance_m(self, place: Place, *, is_last: bool) -> float:
+    def distance_m(self, place: Vector, *, is_last: bool) -> float:
         """Return how far a place at sea level is from the leg; the last one goes on for ever."""
-        from_start = _minus(earth_centred(place), self._origin)
-        along_m = dot(from_start, _unit(_minus(self._end, self._origin)))
+        from_start = _minus(place, self._origin)
+        along_m = dot(from_start, self._forward)
         beyond_m = min(along_m, 0.0)
         if not is_last:
             beyond_m += max(along_m - self.length_m, 0.0)

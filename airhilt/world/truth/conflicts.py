@@ -236,19 +236,26 @@ class ConflictMonitor:
     def _roughly_near(
         self, moving: Sequence[_Moving], far_m: float, far_up_m: float
     ) -> Iterator[tuple[_Moving, _Moving]]:
-        """Yield the pairs that are always watched, or not too far apart in altitude and latitude.
+        """Yield the pairs that are always watched, or not too far apart in one of three directions.
 
-        Most pairs of many are far apart, and arrays find them out at once.
+        The distance to the east of `relative` is at least that at the latitude nearer a pole. Most
+        pairs of many are far apart, and arrays find them out at once.
         """
         altitudes_m = np.array([each.state.altitude_m for each in moving])
         latitudes_rad = np.array([each.state.latitude_rad for each in moving])
         is_far = np.abs(np.subtract.outer(altitudes_m, altitudes_m)) > far_up_m
         north_rad = np.abs(np.subtract.outer(latitudes_rad, latitudes_rad))
         is_far |= north_rad * LEAST_CURVATURE_RADIUS_M > far_m
+        one, two = np.nonzero(~is_far)
+        longitudes_rad = np.array([each.state.longitude_rad for each in moving])
+        turn_rad = np.abs(longitudes_rad[one] - longitudes_rad[two])
+        across = np.cos(latitudes_rad)
+        east_rad = np.minimum(turn_rad, math.tau - turn_rad) * np.minimum(across[one], across[two])
+        is_far[one, two] = east_rad * LEAST_CURVATURE_RADIUS_M > far_m
         places = {each.name: place for place, each in enumerate(moving)}
-        for one, other in self._always:
-            if one in places and other in places:
-                is_far[places[one], places[other]] = False
+        for name, other in self._always:
+            if name in places and other in places:
+                is_far[places[name], places[other]] = False
         for place, later in np.argwhere(np.triu(~is_far, 1)).tolist():
             yield moving[place], moving[later]
 

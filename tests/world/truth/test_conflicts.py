@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import Minima, VerticalProfile
-from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
+from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS, wrap_angle
 from airhilt.world.site import FixedSite
 from airhilt.world.truth.conflicts import profile_of
 from breadth import examples
@@ -167,6 +167,14 @@ def test_two_of_another_pair_are_watched_too() -> None:
     watch = Watch(Straight(north_m=90_000.0), *head_on(30.0)).fly(40.0)
     assert {"loss_of_separation", "collision"} <= set(watch.monitor.pairs[("B", "C")].first_ns)
     assert watch.monitor.pairs[("A", "B")].first_ns == {}
+
+
+def test_two_that_meet_where_longitudes_turn_over_are_watched() -> None:
+    watch = Watch(*head_on(30.0), always=False)
+    for craft in watch.aircraft.values():
+        longitude_rad = craft.state.longitude_rad + math.pi
+        craft.state = craft.state._replace(longitude_rad=wrap_angle(longitude_rad))
+    assert {"loss_of_separation", "collision"} <= watch.fly(40.0).told.keys()
 
 
 def test_an_aircraft_that_has_ended_is_in_nobodys_way() -> None:
