@@ -229,7 +229,11 @@ def main() -> None:
     parser.add_argument("--to", default="127.0.0.1", metavar="HOST", help="default: 127.0.0.1")
     parser.add_argument("--aircraft", required=True, metavar="CALLSIGN", help="what to show")
     parser.add_argument(
-        "--traffic-port", type=int, default=5000, metavar="N", help="of --multiplay; default: 5000"
+        "--traffic-port",
+        type=int,
+        default=5000,
+        metavar="N",
+        help="port of --multiplay; default: 5000",
     )
     given = parser.parse_args()
     aircraft, others = Aircraft(given.aircraft), Others(given.aircraft)

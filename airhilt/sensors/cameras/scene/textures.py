@@ -251,7 +251,7 @@ class Tile:
     starts
         Where levels begin in it, by material and level: that of material m is at m LEVELS + level.
     factors
-        Those of all materials at the finest level, shape (materials, rows, columns).
+        Factors of all materials at the finest level, shape (materials, rows, columns).
     """
 
     texel_m: float
