@@ -11,6 +11,7 @@ from airhilt.sensors.cameras.scene.textures import (
     DECK_OPAQUE,
     DECK_VARIES,
     FINE,
+    LEVELS,
     MIDDLE,
     NEAR,
     SIDE,
@@ -41,10 +42,12 @@ uniform sampler2DArray middle;
 uniform sampler2DArray coarse;
 uniform float focal;
 uniform float texture_share;
+// As `_looked_up` of textures.py does it, to the texel.
 float at(sampler2DArray tile, float texel, vec2 place, float material, float footprint) {{
-    return textureLod(
-        tile, vec3(place / (texel * {SIDE}.0), material), log2(footprint / texel)
-    ).r;
+    int level = (floatBitsToInt(footprint * {2.0**0.5}) >> 23) - 127 - int(round(log2(texel)));
+    level = clamp(level, 0, {LEVELS - 1});
+    ivec2 texels = (ivec2(place / texel) >> level) & (({SIDE} >> level) - 1);
+    return texelFetch(tile, ivec3(texels, int(material)), level).r;
 }}
 // Heights slant places on walls.
 float textured(vec3 place, float material, float footprint) {{
