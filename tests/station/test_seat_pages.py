@@ -56,7 +56,7 @@ def test_the_list_of_keys_has_those_that_act_at_the_seat(page: Page) -> None:
             "sound off or on",
         } & set(listed)
         page.evaluate("document.getElementById('help').close()")
-        page.click("seat-take")
+        page.activate("seat-take")
         page.wait_for("document.getElementById('talk').hidden")
         page.press("?", 191)
         assert "sound off or on" in page.evaluate(KEYS)
