@@ -69,7 +69,7 @@ class Weather(Model):
 
 
 class Appearance(Model):
-    """How much detail cameras see."""
+    """Detail that cameras see."""
 
     texture: Share = Field(
         default=0.0,

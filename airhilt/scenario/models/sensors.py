@@ -35,7 +35,7 @@ class ActorMount(Model):
 
 
 class Imaging(Model):
-    """What a camera's lens, sensor and coder do to its pictures; nothing by default."""
+    """Effects of a camera's lens, sensor and coder on its pictures; none by default."""
 
     exposure_ev: Number = Field(
         default=0.0, ge=-4.0, le=4.0, description="light against that of a good exposure, log 2"

@@ -1,4 +1,4 @@
-"""What lens, sensor and coder do to a picture: blur, vignetting, exposure, noise and JPEG."""
+"""Effects of lens, sensor and coder on a picture: blur, vignetting, exposure, noise and JPEG."""
 
 from __future__ import annotations
 

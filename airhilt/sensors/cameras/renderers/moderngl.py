@@ -116,16 +116,18 @@ class ModernGLRenderer:
     def _add_textures(self) -> None:
         context = self._context
         programs = self._landscape_program, self._sky_program, self._body_program
-        names = zip(("fine", "middle", "coarse"), tiles(), strict=True)
-        for unit, (name, tile) in enumerate(names, start=1):
+        for unit, name in enumerate(("fine", "middle", "coarse"), start=1):
+            for program in programs:
+                if name in program:
+                    program[name] = unit
+        if self._light.texture == 0.0 and not self._light.shows_deck:
+            return
+        for unit, tile in enumerate(tiles(), start=1):
             data = tile.factors.astype(np.float16).tobytes()
             texture = context.texture_array((SIDE, SIDE, len(tile.factors)), 1, data, dtype="f2")
             texture.build_mipmaps()
             texture.filter = context.NEAREST_MIPMAP_NEAREST, context.NEAREST
             texture.use(unit)
-            for program in programs:
-                if name in program:
-                    program[name] = unit
 
     def _set_light(self) -> None:
         light = self._light

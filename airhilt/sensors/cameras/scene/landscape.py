@@ -156,7 +156,7 @@ def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> 
 
 
 class Detail(NamedTuple):
-    """What an airport is drawn with besides its buildings and pavements.
+    """Detail of an airport besides its buildings and pavements.
 
     Attributes
     ----------

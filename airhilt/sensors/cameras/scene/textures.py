@@ -12,12 +12,11 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
+from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
-import scipy.special
 
 from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Floats
@@ -71,14 +70,14 @@ def noise(draws: np.random.Generator, slope: float, stretch: float = 1.0) -> Flo
 
 @cache
 def _noise(slope: float, stretch: float) -> Floats:
-    across, down = scipy.fft.rfftfreq(SIDE)[None], scipy.fft.fftfreq(SIDE)[:, None] * stretch
+    across, down = np.fft.rfftfreq(SIDE)[None], np.fft.fftfreq(SIDE)[:, None] * stretch
     radius = np.hypot(across, down).astype(np.float32)
     radius[0, 0] = 1.0
     draws = stream(SEED, f"noise {slope} {stretch}")
-    spectrum = scipy.fft.rfft2(draws.standard_normal((SIDE, SIDE), dtype=np.float32))
+    spectrum = np.fft.rfft2(draws.standard_normal((SIDE, SIDE), dtype=np.float32))
     spectrum *= radius ** np.float32(-slope / 2.0)
     spectrum[0, 0] = 0.0
-    return _unit(scipy.fft.irfft2(spectrum, s=(SIDE, SIDE)))
+    return _unit(np.fft.irfft2(spectrum, s=(SIDE, SIDE)))
 
 
 def _unit(field: npt.NDArray[np.floating]) -> Floats:
@@ -261,7 +260,7 @@ class Tile:
 
 
 class Places(NamedTuple):
-    """What pixels show of surfaces.
+    """Places of surfaces that pixels show.
 
     Attributes
     ----------
@@ -285,7 +284,7 @@ def on_surface(material: npt.NDArray[np.int32], place_m: Floats, footprint_m: Fl
 
 def deck_from(cover: float) -> float:
     """Return how many deviations of its thickness a deck is thicker where it is seen."""
-    return float(scipy.special.ndtri(1.0 - min(max(cover, 1e-3), 1.0 - 1e-3)))
+    return NormalDist().inv_cdf(1.0 - min(max(cover, 1e-3), 1.0 - 1e-3))
 
 
 def deck(towards: Floats, eye_m: Sequence[float], pixel_rad: float, cover: float) -> Floats:
