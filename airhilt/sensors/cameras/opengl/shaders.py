@@ -46,7 +46,7 @@ uniform float texture_share;
 float at(sampler2DArray tile, float texel, vec2 place, float material, float footprint) {{
     int level = (floatBitsToInt(footprint * {2.0**0.5}) >> 23) - 127 - int(round(log2(texel)));
     level = clamp(level, 0, {LEVELS - 1});
-    ivec2 texels = (ivec2(place / texel) >> level) & (({SIDE} >> level) - 1);
+    ivec2 texels = (ivec2(floor(place / texel)) >> level) & (({SIDE} >> level) - 1);
     return texelFetch(tile, ivec3(texels, int(material)), level).r;
 }}
 // Heights slant places on walls.

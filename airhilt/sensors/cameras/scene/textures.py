@@ -348,11 +348,11 @@ def _looked_up(
     bits = (LEVELS - 1) - level
     mask = np.left_shift(1, bits, dtype=np.int32)
     mask -= 1
-    entry = (places.north_m * scale).astype(np.int32)
+    entry = np.floor(places.north_m * scale).astype(np.int32)
     entry >>= level
     entry &= mask
     entry <<= bits
-    column = (places.east_m * scale).astype(np.int32)
+    column = np.floor(places.east_m * scale).astype(np.int32)
     column >>= level
     column &= mask
     entry += column
