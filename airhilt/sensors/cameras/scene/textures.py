@@ -358,7 +358,7 @@ def _looked_up(
     entry += column
     level += first
     entry += tile.starts.take(level, mode="clip")
-    return tile.table.take(entry, mode="clip")
+    return np.asarray(tile.table.take(entry, mode="clip"))
 
 
 @cache
