@@ -55,6 +55,7 @@ from airhilt.sensors.cameras.sensor import view_message
 from airhilt.sim.streams import stream
 from airhilt.units import seconds_to_ns
 from detector_data import CLASSES, Shot, read_folder
+from detector_disturbances import half_disturbed
 from eval_detector import loosely, matched, on_faint
 
 RATE_HZ = 16.0
@@ -192,17 +193,20 @@ def chosen_threshold(counts: Mapping[str, Count]) -> float:
 
 
 def findings(
-    detector: EmbeddedDetector, pictures: Sequence[Shot]
+    detector: EmbeddedDetector, pictures: Sequence[Shot], seed: int
 ) -> tuple[list[Found], list[bool]]:
-    """Return what is found in pictures, uncalibrated, and whether it is true.
+    """Return what is found in pictures, every second disturbed, uncalibrated, and if it is true.
 
     What lies on bodies that can hardly be seen, or on the own aircraft, is left out.
     """
     found: list[Found] = []
     is_true: list[bool] = []
-    for shot in track(pictures, "pictures", transient=True, disable=not sys.stderr.isatty()):
+    seen = half_disturbed(pictures, seed)
+    for shot, picture in track(
+        seen, "pictures", len(pictures), transient=True, disable=not sys.stderr.isatty()
+    ):
         own = shot.own_aircraft()
-        told = sorted(detector.uncalibrated(shot.picture()), key=lambda one: -one.confidence)
+        told = sorted(detector.uncalibrated(picture), key=lambda one: -one.confidence)
         here = [
             each
             for each in once(told)
@@ -259,7 +263,7 @@ def main() -> None:
     card: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     if given.folders:
         shots = [shot for folder in given.folders for shot in read_folder(folder)]
-        calibration = fitted(*findings(EmbeddedDetector(given.network), shots))
+        calibration = fitted(*findings(EmbeddedDetector(given.network), shots, given.seed))
         card["calibration"] = calibration.model_dump()
         write(path, card)
     detector = EmbeddedDetector(given.network, DOUBTFUL * min(THRESHOLDS))

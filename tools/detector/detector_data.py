@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,8 @@ class Body:
     contrast
         What half of its pixels differ more than from the colour around, in 8-bit levels. So
         lamps alone do not make a body visible.
+    corner, mask
+        Row and column of a part of the picture, and where the body is in it.
     """
 
     label: int
@@ -47,6 +50,8 @@ class Body:
     visible_fraction: float
     transmission: float
     contrast: float
+    corner: tuple[int, int] = (0, 0)
+    mask: Mask = field(default_factory=lambda: np.zeros((0, 0), dtype=bool), compare=False)
 
     @property
     def size_px(self) -> float:
@@ -82,6 +87,14 @@ class Shot:
         """Return its pixels, shape (rows, columns, 3)."""
         return read_picture(self.path)
 
+    def masks(self) -> Mask:
+        """Return where bodies are, shape (rows, columns)."""
+        masks = np.zeros((self.about["height"], self.about["width"]), dtype=bool)
+        for body in self.bodies:
+            (top, left), (rows, columns) = body.corner, body.mask.shape
+            masks[top : top + rows, left : left + columns] |= body.mask
+        return masks
+
 
 def read_picture(path: Path) -> Picture:
     """Return the pixels of a file, shape (rows, columns, 3)."""
@@ -106,6 +119,9 @@ def read_folder(folder: Path) -> list[Shot]:
             left, top, width, height = annotation["bbox"]
             box = left, top, left + width, top + height
             assert pixels is not None
+            mask = mask_of(annotation["segmentation"])
+            top_row, left_column = max(int(top), 0), max(int(left), 0)
+            within = np.s_[top_row : math.ceil(top + height), left_column : math.ceil(left + width)]
             bodies.append(
                 Body(
                     CLASSES.index(names[annotation["category_id"]]),
@@ -113,7 +129,9 @@ def read_folder(folder: Path) -> list[Shot]:
                     annotation["range_m"],
                     annotation["visible_fraction"],
                     annotation["transmission"],
-                    contrast(pixels, box, mask_of(annotation["segmentation"])),
+                    contrast(pixels, box, mask),
+                    (top_row, left_column),
+                    mask[within].copy(),
                 )
             )
         shots.append(Shot(path, about, tuple(bodies)))

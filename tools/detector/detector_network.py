@@ -19,6 +19,8 @@ FOUND = 50
 WIDTHS, BLOCKS = (16, 48, 64, 64), (1, 1, 3)
 FAINT_LEVELS = 12.0
 """Differences from the surroundings above it count less and less."""
+ROUGH = 1.5
+"""How much the deviation around counts, beside those levels."""
 PRIOR = 0.005
 """Score of everything before training."""
 
@@ -96,11 +98,22 @@ class Network(nn.Module):
 
 
 def _local(pictures: Tensor) -> Tensor:
-    """Return by how much each pixel differs from what is around it, from -1 to 1."""
+    """Return by how much each pixel differs from what is around it, from -1 to 1.
+
+    It is in parts of some levels and of how much all differs around, so that texture does not
+    drown what stands out of it.
+    """
     red, green, blue = pictures.split(1, dim=1)
     grey = (red + green + blue) * (1.0 / (3.0 * FAINT_LEVELS))
-    around = functional.avg_pool2d(functional.avg_pool2d(grey, 8), 3, 1, 1, False, False)
-    return (grey - _enlarged(around, 8)).tanh()
+    away = grey - _enlarged(_around(grey, 3), 8)
+    deviation = (_around(away * away, 5) + 1e-6).sqrt()
+    return (away / (1.0 + ROUGH * _enlarged(deviation, 8))).tanh()
+
+
+def _around(features: Tensor, cells: int) -> Tensor:
+    """Return means over so many cells of 8 by 8 pixels, one for each cell."""
+    pooled = functional.avg_pool2d(features, 8)
+    return functional.avg_pool2d(pooled, cells, 1, cells // 2, False, False)
 
 
 def _enlarged(features: Tensor, factor: int) -> Tensor:

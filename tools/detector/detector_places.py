@@ -18,7 +18,8 @@ from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
 from airhilt.imaging.boxes import centre, overlap, size_px
 from airhilt.messages import Box
 from detector_data import Body, Shot, read_folder
-from detector_scratch import Pictures, contents, decoded, mark_of
+from detector_disturbances import half_disturbed
+from detector_scratch import Pictures, contents, mark_of
 from eval_detector import on_faint
 
 LEAST_SCORE, MOST = 0.03, 20
@@ -63,45 +64,45 @@ class Places:
         return len(self.picture)
 
 
-def places_of(folder: Path, network: Path, scratch: Path) -> Places:
-    """Return the places of a folder, from ``scratch`` if they are there."""
-    seen = contents(folder)
-    file = scratch / f"{folder.name}-{mark_of([seen])}.u8"
-    limits = repr((LEAST_SCORE, MOST, TRUE, FALSE, NEAR_IT, NEAR_IT_PX, ALIKE)).encode()
-    kept = scratch / f"{folder.name}-{mark_of([limits, network.read_bytes(), seen])}.npz"
-    if not (file.is_file() and kept.is_file()):
-        shots = read_folder(folder)
-        _write(kept, shots, decoded(shots, file), EmbeddedDetector(network))
-    data = _load(kept)
-    pictures = np.memmap(file, np.uint8, "r", shape=tuple(data["shape"]))
-    return Places(
-        pictures,
-        data["picture"],
-        data["boxes"].astype(np.float32),
-        data["scores"].astype(np.float32),
-        data["labels"],
-        data["truth"].astype(np.float32),
-    )
+def places_of(folder: Path, network: Path, scratch: Path, seed: int) -> Places:
+    """Return the places of a folder, from ``scratch`` if they are there.
+
+    Every second picture is disturbed.
+    """
+    limits = repr((LEAST_SCORE, MOST, TRUE, FALSE, NEAR_IT, NEAR_IT_PX, ALIKE, seed)).encode()
+    kept = scratch / f"{folder.name}-{mark_of([limits, network.read_bytes(), contents(folder)])}"
+    names, file = kept.with_suffix(".npz"), kept.with_suffix(".u8")
+    if not names.is_file():
+        _write(names, file, read_folder(folder), EmbeddedDetector(network), seed)
+    with np.load(names, allow_pickle=False) as data:
+        return Places(
+            np.memmap(file, np.uint8, "r", shape=tuple(data["shape"])),
+            data["picture"],
+            data["boxes"].astype(np.float32),
+            data["scores"].astype(np.float32),
+            data["labels"],
+            data["truth"].astype(np.float32),
+        )
 
 
 def _write(
-    path: Path, shots: Sequence[Shot], pictures: Pictures, detector: EmbeddedDetector
+    path: Path, file: Path, shots: Sequence[Shot], detector: EmbeddedDetector, seed: int
 ) -> None:
-    """Ask the first network about all pictures; the file gets its name once all are in it."""
+    """Ask the first network about all pictures; ``path`` is there once all are in it."""
     rows: list[tuple[Any, ...]] = []
-    for index, shot in enumerate(track(shots, path.name, transient=True)):
-        rows += [(index, *row) for row in places_in(shot, detector.proposed(pictures[index]))]
+    shape = (len(shots), *shots[0].picture().shape)
+    pictures = np.memmap(file, np.uint8, "w+", shape=shape)
+    seen = half_disturbed(shots, seed)
+    for index, (shot, picture) in enumerate(track(seen, path.name, len(shots), transient=True)):
+        pictures[index] = picture
+        rows += [(index, *row) for row in places_in(shot, detector.proposed(picture))]
+    pictures.flush()
     names = ("picture", "boxes", "scores", "labels", "truth")
     arrays: dict[str, Any] = dict(zip(names, map(np.array, zip(*rows, strict=True)), strict=True))
     partial = path.with_suffix(".partial")
-    with partial.open("wb") as file:
-        np.savez(file, shape=pictures.shape, **arrays)
+    with partial.open("wb") as target:
+        np.savez(target, shape=shape, **arrays)
     partial.replace(path)
-
-
-def _load(path: Path) -> dict[str, npt.NDArray[Any]]:
-    with np.load(path, allow_pickle=False) as data:
-        return dict(data)
 
 
 def places_in(shot: Shot, found: Sequence[Found]) -> Iterator[tuple[Box, float, int, Box]]:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from io import BytesIO
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import torch
-from PIL import Image, ImageFilter
+from PIL import Image
 from torch.nn import functional
 
 from airhilt.assistant.vision.detector import GRID_PX
 from detector_data import CLASSES, Body, Shot
+from detector_disturbances import Disturber
 from detector_network import STRIDE, Network
 from detector_scratch import Pictures
 
@@ -30,6 +30,8 @@ REMEMBERED = 3000
 FALSE_FROM, MISSED_UNDER = 0.15, 0.4
 """Scores that make a mistake of what is nothing, and of what is a body."""
 SCALES = (0.55, 1.7)
+AS_DRAWN = 0.2
+"""Part of the tiles that nothing disturbs."""
 LEARNT_PX = 8.0
 """Smaller bodies are left out of training: they teach to take lamps and specks for something."""
 Picture = npt.NDArray[np.uint8]
@@ -49,6 +51,7 @@ class Tiles:
 
     def __init__(self, shots: list[Shot], pictures: Pictures, seed: int) -> None:
         self._shots, self._pictures, self._seed = shots, pictures, seed
+        self._disturber = Disturber(seed)
         self.mistakes: list[Mistake] = []
         self._found = [
             (index, body)
@@ -137,22 +140,30 @@ class Tiles:
             index = int(draws.integers(len(self._shots)))
             x, y = draws.uniform(0.0, columns - side), draws.uniform(0.0, rows - side)
         x, y = int(np.clip(x, 0, columns - side)), int(np.clip(y, 0, rows - side))
-        tile = self._pictures[index, y : y + side, x : x + side]
+        within = np.s_[y : y + side, x : x + side]
+        tile, masks = self._pictures[index][within], self._shots[index].masks()[within]
         if side != tile_px:
             sharp = draws.random() < 0.3
             kind = Image.Resampling.BICUBIC if sharp else Image.Resampling.BILINEAR
-            tile = np.asarray(Image.fromarray(tile).resize((tile_px, tile_px), kind))
+            tile = _scaled(tile, tile_px, kind)
+            masks = _scaled(masks.astype(np.uint8) * 255, tile_px, Image.Resampling.BILINEAR) > 127
         flip = draws.random() < 0.5
         if flip:
-            tile = tile[:, ::-1]
-        scores, counts, boxes, box_weights = _maps(
-            self._shots[index].bodies, x, y, tile_px / side, flip, tile_px
-        )
+            tile, masks = tile[:, ::-1], masks[:, ::-1]
+        bodies = self._shots[index].bodies
+        if draws.random() >= AS_DRAWN:
+            taken = self._disturber(tile, masks, draws)
+            tile, bodies = taken.picture, taken.bodies(bodies)
+        scores, counts, boxes, box_weights = _maps(bodies, x, y, tile_px / side, flip, tile_px)
         if index in self._own:
             middles = ((np.arange(tile_px // STRIDE) + 0.5) * STRIDE * side / tile_px).astype(int)
             own = self._own[index][np.ix_(y + middles, x + middles)]
             counts[0][(own[:, ::-1] if flip else own) & (scores.max(axis=0) < 0.3)] = 0.0
-        return varied(tile, draws), scores, counts, boxes, box_weights
+        return np.ascontiguousarray(tile), scores, counts, boxes, box_weights
+
+
+def _scaled(picture: Picture, side: int, kind: Image.Resampling) -> Picture:
+    return np.asarray(Image.fromarray(picture).resize((side, side), kind))
 
 
 def _weights(found: list[tuple[int, Body]], side: int) -> npt.NDArray[np.float64]:
@@ -179,34 +190,6 @@ def _centre(body: Body) -> tuple[float, float]:
 
 def _octave(body: Body) -> int:
     return int(2.0 * math.log2(body.size_px / LEARNT_PX))
-
-
-def varied(tile: Picture, draws: np.random.Generator) -> Picture:
-    """Return a tile as another camera would have taken it."""
-    if draws.random() < 0.7:
-        gains = draws.uniform(0.94, 1.06, size=3) * draws.uniform(0.7, 1.08)
-        gamma = math.exp(draws.normal(0.0, 0.2))
-        lift = draws.uniform(-8.0, 8.0)
-        levels = np.arange(256)[:, None] / 255.0
-        table = np.clip(255.0 * levels**gamma * gains + lift, 0.0, 255.0).astype(np.uint8)
-        image = Image.fromarray(np.ascontiguousarray(tile))
-        tile = np.asarray(image.point(table.T.ravel().tolist()))
-    if draws.random() < 0.08:
-        grey = tile.mean(axis=2, keepdims=True)
-        tile = np.broadcast_to(grey, tile.shape).astype(np.uint8)
-    if draws.random() < 0.08:
-        blur = ImageFilter.GaussianBlur(float(draws.uniform(0.3, 0.9)))
-        tile = np.asarray(Image.fromarray(np.ascontiguousarray(tile)).filter(blur))
-    if draws.random() < 0.25:
-        noise = draws.standard_normal(tile.shape, dtype=np.float32)
-        tile = np.clip(tile + noise * draws.uniform(0.5, 4.0), 0.0, 255.0).astype(np.uint8)
-    if draws.random() < 0.25:
-        buffer = BytesIO()
-        Image.fromarray(np.ascontiguousarray(tile)).save(
-            buffer, format="JPEG", quality=int(draws.integers(60, 96))
-        )
-        tile = np.asarray(Image.open(buffer))
-    return np.ascontiguousarray(tile)
 
 
 def _inside(

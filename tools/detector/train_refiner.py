@@ -10,11 +10,12 @@ known, and that is what the second network learns to tell, with the body's class
 `airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has taken
 for something. Places on bodies that can hardly be seen teach nothing.
 
+Every second picture is disturbed, as the first network's were (see `detector_disturbances`).
+
 It is written beside the first network, as ``refiner.onnx``, and into the card there. Pictures
 are kept decoded beside the answers of the first network in ``SCRATCH/<folder>-<mark>.u8`` and
-``SCRATCH/<folder>-<mark>.npz``, where the marks change with what they are made of; both are made
-again when missing. A checkpoint is written every few minutes; the same command goes on from it,
-also with more folders.
+``SCRATCH/<folder>-<mark>.npz``, where the mark changes with what they are made of. A checkpoint
+is written every few minutes; the same command goes on from it, also with more folders.
 """
 
 from __future__ import annotations
@@ -248,7 +249,9 @@ def main() -> None:
     given = parser.parse_args()
     torch.set_num_threads(given.threads)
     given.scratch.mkdir(parents=True, exist_ok=True)
-    folders = [places_of(folder, given.network, given.scratch) for folder in given.folders]
+    folders = [
+        places_of(folder, given.network, given.scratch, given.seed) for folder in given.folders
+    ]
     lessons = Lessons(folders, given.seed)
     print(f"{len(lessons)} places, {lessons.bodies} of them bodies", flush=True)
     checkpoint = given.scratch / "refiner.pt"

@@ -199,8 +199,11 @@ def resolved(drawn: Samples, samples: int) -> Samples:
     if samples == 1:
         return drawn
     rows, columns = (side // samples for side in drawn.distance_m.shape)
-    supersampling = drawn.colour.reshape(rows, samples, columns, samples, 3)
-    colour = np.round(supersampling.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
+    # Sums of whole numbers, column by column: NumPy's mean over two short axes is seven times slower.
+    summed = drawn.colour.reshape(rows, samples, -1).sum(axis=1, dtype=np.uint16)
+    total = summed.reshape(rows, columns, samples, 3)
+    total = sum((total[:, :, column] for column in range(1, samples)), start=total[:, :, 0])
+    colour = np.round(total / np.float32(samples**2)).astype(np.uint8)
     middle = samples // 2
     return Samples(colour, np.ascontiguousarray(drawn.distance_m[middle::samples, middle::samples]))
 
