@@ -199,7 +199,7 @@ def resolved(drawn: Samples, samples: int) -> Samples:
     if samples == 1:
         return drawn
     rows, columns = (side // samples for side in drawn.distance_m.shape)
-    # Sums of whole numbers, column by column: NumPy's mean over two short axes is seven times slower.
+    # Sums of whole numbers: the mean of NumPy over two short axes is seven times slower.
     summed = drawn.colour.reshape(rows, samples, -1).sum(axis=1, dtype=np.uint16)
     total = summed.reshape(rows, columns, samples, 3)
     total = sum((total[:, :, column] for column in range(1, samples)), start=total[:, :, 0])
