@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from pathlib import Path
@@ -15,6 +16,7 @@ from PIL import Image
 
 import calibrate_detector as calibrating
 import detector_data as data
+import detector_disturbances as disturbances
 import detector_lessons as lessons
 import detector_places as places
 import eval_detector as judging
@@ -157,17 +159,17 @@ class TestKeptPictures:
         network, scratch = tmp_path / "detector.onnx", tmp_path / "scratch"
         network.write_bytes(b"one")
         scratch.mkdir()
-        return lambda folder: places.places_of(folder, network, scratch)
+        return lambda folder: places.places_of(folder, network, scratch, seed=5)
 
     def test_pictures_are_those_of_the_folder_and_asked_about_once(
         self, asking: Any, tmp_path: Path
     ) -> None:
-        folder = folder_of(tmp_path / "train", 50, 90)
+        folder = folder_of(tmp_path / "train", 50, 90, 70)
         for _ in range(2):
             known = asking(folder)
-            assert known.pictures[:, 0, 0, 0].tolist() == [50, 90]
-            assert known.picture.tolist() == [0, 1]
-        assert FirstNetwork.asked == 2
+            assert known.pictures[::2, 0, 0, 0].tolist() == [50, 70]
+            assert known.picture.tolist() == [0, 1, 2]
+        assert FirstNetwork.asked == 3
 
     def test_decoding_that_is_broken_off_is_begun_anew(self, asking: Any, tmp_path: Path) -> None:
         folder = folder_of(tmp_path / "train", 50, 90)
@@ -176,24 +178,60 @@ class TestKeptPictures:
         with pytest.raises(FileNotFoundError):
             asking(folder)
         (folder / "1.png").write_bytes(second)
-        assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
+        assert asking(folder).pictures[0, 0, 0, 0] == 50
 
     def test_other_data_of_the_same_size_is_not_taken_for_it(
         self, asking: Any, tmp_path: Path
     ) -> None:
         asking(folder_of(tmp_path / "train", 50, 90, seed=1))
         again = asking(folder_of(tmp_path / "train", 60, 70, seed=2))
-        assert again.pictures[:, 0, 0, 0].tolist() == [60, 70]
+        assert again.pictures[0, 0, 0, 0] == 60
 
-    def test_another_network_is_asked_about_the_same_pictures(
-        self, asking: Any, tmp_path: Path
-    ) -> None:
+    def test_another_network_is_asked_anew(self, asking: Any, tmp_path: Path) -> None:
         folder = folder_of(tmp_path / "train", 50, 90)
         asking(folder)
         (tmp_path / "detector.onnx").write_bytes(b"another")
         asking(folder)
         assert FirstNetwork.asked == 4
-        assert len(list((tmp_path / "scratch").glob("*.u8"))) == 1
+
+
+@pytest.fixture(scope="module")
+def seen(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
+    """Return pictures of a grey plain with a body in it, every second disturbed."""
+    folder = folder_of(tmp_path_factory.mktemp("plain"), *([100] * 40))
+    mask = np.ones((10, 20), dtype=bool)
+    shots = [
+        dataclasses.replace(shot, bodies=(dataclasses.replace(body(), corner=(30, 40), mask=mask),))
+        for shot in data.read_folder(folder)
+    ]
+    return list(disturbances.half_disturbed(shots, 3))
+
+
+class TestDisturbances:
+    def test_masks_are_where_bodies_are(self, seen: list[Any]) -> None:
+        masks = seen[0][0].masks()
+        assert masks.sum() == 200
+        assert masks[30:40, 40:60].all()
+
+    def test_every_second_picture_is_as_it_was(self, seen: list[Any]) -> None:
+        assert all((picture == 100).all() for _, picture in seen[::2])
+        assert all(picture.std() > 0.0 or picture.mean() != 100.0 for _, picture in seen[1::2])
+
+    def test_a_body_is_drowned_by_what_deviates_as_much_as_it_stands_out(
+        self, seen: list[Any]
+    ) -> None:
+        rough = disturbances.Disturbed(seen[0][1], 90.0)
+        smooth = disturbances.Disturbed(seen[0][1], 20.0)
+        assert not rough.bodies([body()])[0].counts
+        assert smooth.bodies([body()])[0].counts
+
+    def test_pictures_are_disturbed_alike_from_one_time_to_the_next(self, seen: list[Any]) -> None:
+        """Pictures with other numbers have other disturbances."""
+        again = list(disturbances.half_disturbed([shot for shot, _ in seen], 3))
+        assert all(
+            np.array_equal(one, other) for (_, one), (_, other) in zip(seen, again, strict=True)
+        )
+        assert len({float(picture.mean()) for _, picture in seen[1::2]}) > 10
 
 
 class TestLessons:

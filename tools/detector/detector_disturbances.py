@@ -213,14 +213,16 @@ def _power_noise(draws: Draws, beta: float) -> Floats:
 
 def _patches(draws: Draws, count: int) -> Floats:
     """Return patches of one shade each, or the lines between them."""
-    down, across = np.mgrid[:SIDE_PX, :SIDE_PX]
-    places = cKDTree(draws.uniform(0.0, SIDE_PX, (count, 2)))
+    side = SIDE_PX // 2
+    down, across = np.mgrid[:side, :side]
+    places = cKDTree(draws.uniform(0.0, side, (count, 2)))
     away, nearest = places.query(np.column_stack((across.ravel(), down.ravel())), k=2)
     if draws.random() < 0.5:
         shades = draws.normal(0.0, 1.0, count)[nearest[:, 0]]
     else:
-        shades = np.minimum(away[:, 1] - away[:, 0], 8.0)
-    return shades.reshape(SIDE_PX, SIDE_PX).astype(np.float32)
+        shades = np.minimum(away[:, 1] - away[:, 0], 4.0)
+    coarse = Image.fromarray(shades.reshape(side, side).astype(np.float32))
+    return np.asarray(coarse.resize((SIDE_PX, SIDE_PX), Image.Resampling.BILINEAR))
 
 
 def _stripes(draws: Draws) -> Floats:

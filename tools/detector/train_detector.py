@@ -43,7 +43,7 @@ from detector_tiles import ASKED, Tiles
 
 RATE, WARM_UP, DECAY = 2e-3, 200, 1e-3
 EMA = 0.999
-ROUND = 1000
+ROUND = 2000
 """Batches after which the network is asked what it makes of some of the pictures."""
 AHEAD = 3
 """Batches that are made before they are needed."""
