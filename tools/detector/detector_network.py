@@ -17,6 +17,8 @@ STEM_STRIDE, STRIDE = 4, 8
 FOUND = 50
 """Bodies that are looked for in a picture, at most."""
 WIDTHS, BLOCKS = (16, 48, 64, 64), (1, 1, 3)
+LIGHT = 64.0
+"""Levels are taken in such parts."""
 FAINT_LEVELS = 12.0
 """Differences from the surroundings above it count less and less."""
 ROUGH = 1.5
@@ -87,7 +89,7 @@ class Network(nn.Module):
 
     def forward(self, pictures: Tensor) -> tuple[Tensor, Tensor]:
         """Return the maps of scores and those of places and sizes."""
-        light = functional.conv2d(pictures, self.stem.weight / 64.0, None, STEM_STRIDE, 1)
+        light = functional.conv2d(pictures, self.stem.weight / LIGHT, None, STEM_STRIDE, 1)
         supersampling = self.supersampling(
             self.stem_norm(light + self.stem_local(_local(pictures)))
         )

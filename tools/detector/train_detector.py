@@ -37,11 +37,16 @@ from torch.nn import functional
 
 from airhilt.assistant.vision.detectors.embedded import CARD
 from detector_data import CLASSES, read_folder
-from detector_network import STRIDE, Network, write_onnx
+from detector_network import LIGHT, STRIDE, Network, write_onnx
 from detector_scratch import contents, decoded, mark_of
+from detector_start import begin_with, measure
 from detector_tiles import ASKED, Tiles
 
 RATE, WARM_UP, DECAY = 2e-3, 200, 1e-3
+GONE_ON_RATE = 1e-3
+"""Rate at which a network learns that has learnt before."""
+BEFORE_ALL, MEASURED = 10_000_000, 12
+"""Number of the first batch that an exported network is measured with, and how many there are."""
 EMA = 0.999
 ROUND = 2000
 """Batches after which the network is asked what it makes of some of the pictures."""
@@ -132,22 +137,28 @@ def rounds(
         first = end
 
 
-def begin_with(network: Network, weights: dict[str, Tensor]) -> None:
-    """Take what fits of the weights of another training."""
-    own = network.state_dict()
-    named = {name.removeprefix("module."): weight for name, weight in weights.items()}
-    fitting = {
-        name: weight
-        for name, weight in named.items()
-        if name in own and weight.shape == own[name].shape
-    }
-    network.load_state_dict(own | fitting)
-    print(f"begins with {len(fitting)} of {len(own)} weights", flush=True)
-
-
 def followed(mean: Tensor, now: Tensor, count: Tensor | int) -> Tensor:
     """Return a running mean that follows fast at first."""
     return mean + (now - mean) * max(1.0 - EMA, 10.0 / (10.0 + float(count)))
+
+
+def seen_as(pictures: Tensor) -> Tensor:
+    """Return pictures, shape (n, rows, columns, 3), as the network takes them."""
+    return pictures.permute(0, 3, 1, 2).float().contiguous(memory_format=torch.channels_last)
+
+
+def begun(tiles: Tiles, start: Path) -> Network:
+    """Return a network that does what an exported one did, and can learn."""
+    network = Network()
+    others = begin_with(network, start)
+    norm = network.stem_norm[0]
+    assert isinstance(norm, nn.BatchNorm2d)
+    with torch.no_grad():
+        network.stem.weight.copy_(others["first"] * LIGHT)
+        norm.bias.copy_(others["stem_local.bias"])
+    measured = (tiles.batch(BEFORE_ALL + number)[0] for number in range(MEASURED))
+    measure(network, ((seen_as(torch.from_numpy(pictures)),) for pictures in measured))
+    return network
 
 
 def optimiser_of(network: Network) -> torch.optim.Optimizer:
@@ -190,9 +201,7 @@ def train(
 ) -> Network:
     """Return the mean network of the last part of the training."""
     torch.manual_seed(seed)
-    network = Network()
-    if start is not None and not checkpoint.is_file():
-        begin_with(network, torch.load(start, weights_only=True)["mean"])
+    network = Network() if start is None else begun(tiles, start)
     network.to(memory_format=torch.channels_last)
     mean = torch.optim.swa_utils.AveragedModel(network, avg_fn=followed, use_buffers=True)
     optimiser = optimiser_of(network)
@@ -201,15 +210,15 @@ def train(
         kept = resume(checkpoint, network, mean, optimiser)
         done, spent_s = kept["done"], kept["spent_s"]
         tiles.mistakes = [(int(index), x, y) for index, x, y in kept["mistakes"].tolist()]
-    begun = saved = time.monotonic()
+    highest = RATE if start is None else GONE_ON_RATE
+    begun_s = saved = time.monotonic()
     means = np.zeros(3)
     network.train()
     for step, (pictures, *maps) in rounds(tiles, mean, done, steps):
-        rate = RATE * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
+        rate = highest * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
         for group in optimiser.param_groups:
             group["lr"] = max(rate, 1e-5)
-        seen = pictures.permute(0, 3, 1, 2).float()
-        scores, boxes = network(seen.contiguous(memory_format=torch.channels_last))
+        scores, boxes = network(seen_as(pictures))
         losses = loss_of(scores, boxes, *maps)
         optimiser.zero_grad(set_to_none=True)
         sum(worth * loss for worth, loss in zip(WORTH, losses, strict=True)).backward()
@@ -219,15 +228,15 @@ def train(
         means += [float(loss.detach()) for loss in losses]
         if (step + 1) % 50 == 0:
             told = "  ".join(f"{loss:.3f}" for loss in means / 50)
-            print(f"step {step + 1} of {steps}  {spent_s + time.monotonic() - begun:.0f} s  {told}",
-                  flush=True)  # fmt: skip
+            spent = spent_s + time.monotonic() - begun_s
+            print(f"step {step + 1} of {steps}  {spent:.0f} s  {told}", flush=True)
             means[:] = 0.0
         if time.monotonic() - saved > CHECKPOINT_S or step + 1 == steps:
             saved = time.monotonic()
             state = {
                 "mistakes": torch.tensor(tiles.mistakes, dtype=torch.float64).reshape(-1, 3),
                 "done": step + 1,
-                "spent_s": spent_s + saved - begun,
+                "spent_s": spent_s + saved - begun_s,
             }
             save(checkpoint, network, mean, optimiser, state)
     averaged = mean.module
@@ -242,7 +251,7 @@ def main() -> None:
     parser.add_argument("--out", required=True, type=Path, metavar="DIR")
     parser.add_argument("--steps", type=int, default=6000, help="batches to train on")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--start", type=Path, help="checkpoint of another training to begin with")
+    parser.add_argument("--start", type=Path, metavar="FILE", help="exported network to go on from")
     parser.add_argument("--threads", type=int, default=1)
     given = parser.parse_args()
     torch.set_num_threads(given.threads)
