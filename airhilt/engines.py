@@ -28,8 +28,9 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
 
 RENDERER_HELP = (
-    "What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
-    "open3d, moderngl, or a renderer of another package."
+    "What draws pictures: auto (embree, which draws the same on all machines, or open3d where it "
+    "cannot be had), fastest (moderngl where it can draw), embree, open3d, moderngl, or a renderer "
+    "of another package."
 )
 """Help of ``--renderer``, for runs and for the commands that draw pictures."""
 

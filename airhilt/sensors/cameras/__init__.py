@@ -1,7 +1,9 @@
 """Cameras: the scene, what draws it, and what is true of each picture."""
 
 AUTO = "auto"
-"""Renderer: Open3D where it is installed, otherwise Embree."""
+"""Renderer: the one that draws the same bytes on all machines."""
+FASTEST = "fastest"
+"""Renderer: the one that draws in the least time."""
 STILL_SAMPLES = 3
 """Samples along each side of a pixel of a background that is drawn once."""
 UNSEEN_FIELDS = ("name", "title", "description", "radio")

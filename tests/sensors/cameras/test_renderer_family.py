@@ -13,7 +13,7 @@ from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, RendererError
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras import AUTO, FASTEST
 from airhilt.sensors.cameras.renderers import FAMILY, open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Mesh
@@ -99,10 +99,16 @@ def test_a_renderer_that_does_not_exist_is_refused_with_the_nearest(
 
 
 @pytest.mark.parametrize(
-    ("missing", "taken"), [((), "open3d"), (("open3d",), "embree")], ids=["installed", "missing"]
+    ("asked", "missing", "taken"),
+    [
+        (AUTO, (), "embree"),
+        (AUTO, ("embree",), "open3d"),
+        (FASTEST, (), "moderngl"),
+        (FASTEST, ("moderngl",), "embree"),
+    ],
 )
-def test_auto_takes_open3d_where_it_is_installed_and_embree_otherwise(
-    monkeypatch: pytest.MonkeyPatch, missing: tuple[str, ...], taken: str
+def test_the_first_of_the_preferred_ones_that_is_installed_draws(
+    monkeypatch: pytest.MonkeyPatch, asked: str, missing: tuple[str, ...], taken: str
 ) -> None:
     load_one = FAMILY.load
 
@@ -118,6 +124,6 @@ def test_auto_takes_open3d_where_it_is_installed_and_embree_otherwise(
             return load_one("embree").open(landscape, light)
 
     monkeypatch.setattr(type(FAMILY), "load", lambda _, name: Found(name))
-    name, opened = open_renderer(AUTO, TRIANGLE, {}, NOON)
+    name, opened = open_renderer(asked, TRIANGLE, {}, NOON)
     opened.close()
     assert name == taken

@@ -20,12 +20,12 @@ from airhilt.errors import AirhiltError, RendererError
 from airhilt.host.library import nearest
 from airhilt.imaging.view import Intrinsics, Pose, View, Window
 from airhilt.plugins import Family
-from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras import AUTO, FASTEST
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Floats, Mesh
 
-PREFERRED = ("open3d", "embree")
-"""Renderers that ``auto`` tries in turn; the first that can be loaded draws."""
+PREFERRED = {AUTO: ("embree", "open3d"), FASTEST: ("moderngl", "embree", "open3d")}
+"""Renderers that are tried in turn; the first that can draw here does."""
 
 
 class Samples(NamedTuple):
@@ -130,7 +130,7 @@ def require_known(name: str) -> None:
     AirhiltError
         There is no renderer of that name.
     """
-    names = [AUTO, *FAMILY.names()]
+    names = [*PREFERRED, *FAMILY.names()]
     if name not in names:
         raise AirhiltError(
             f"no renderer named {name!r}{nearest(name, names)}; expected one of {', '.join(names)}"
@@ -145,14 +145,14 @@ def open_renderer(
     Parameters
     ----------
     name
-        Name of a renderer; ``auto`` takes the first of `PREFERRED` that can draw here.
+        Name of a renderer, or of a row of `PREFERRED`.
 
     Raises
     ------
     RendererError
         There is none of that name, or something that it needs is not installed.
     """
-    *others, taken = PREFERRED if name == AUTO else (name,)
+    *others, taken = PREFERRED.get(name, (name,))
     renderer = None
     for other in others:
         with suppress(RendererError):
