@@ -36,7 +36,17 @@ from airhilt.assistant.vision.refiner import VIEW_PX
 from detector_data import CLASSES
 from detector_lessons import Lessons
 from detector_places import places_of
-from train_detector import NOT_CALIBRATED, batches, followed, resume, save
+from detector_start import begin_with, measure
+from train_detector import (
+    BEFORE_ALL,
+    GONE_ON_RATE,
+    MEASURED,
+    NOT_CALIBRATED,
+    batches,
+    followed,
+    resume,
+    save,
+)
 
 FILE = "refiner.onnx"
 USED_FROM, USED = 0.15, 8
@@ -151,9 +161,18 @@ def write_onnx(network: Network, path: Path) -> None:
 # --- training -----------------------------------------------------------------------------
 
 
-def rate_at(step: int, steps: int) -> float:
+def begun(lessons: Lessons, start: Path) -> Network:
+    """Return a network that does what an exported one did, and can learn."""
+    network = Network()
+    begin_with(network, start)
+    batches = (lessons.batch(BEFORE_ALL + number) for number in range(MEASURED))
+    measure(network, (tuple(map(torch.from_numpy, batch[1:3])) for batch in batches))
+    return network
+
+
+def rate_at(step: int, steps: int, highest: float) -> float:
     """Return the learning rate: a warm-up, then a cosine."""
-    rate = RATE * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
+    rate = highest * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
     return max(rate, 1e-5)
 
 
@@ -186,7 +205,7 @@ def learn(
 
 
 def train(
-    lessons: Lessons, steps: int, checkpoint: Path, seed: int
+    lessons: Lessons, steps: int, checkpoint: Path, seed: int, start: Path | None = None
 ) -> tuple[Network, list[dict[str, int]]]:
     """Return the mean network of the last part of the training, and how the training went.
 
@@ -194,7 +213,9 @@ def train(
     up to which it was planned, and on how many places and bodies.
     """
     torch.manual_seed(seed)
-    network = Network().to(memory_format=torch.channels_last)
+    network = Network() if start is None else begun(lessons, start)
+    network.to(memory_format=torch.channels_last)
+    highest = RATE if start is None else GONE_ON_RATE
     mean = torch.optim.swa_utils.AveragedModel(network, avg_fn=followed, use_buffers=True)
     optimiser = torch.optim.AdamW(network.parameters(), RATE, weight_decay=DECAY)
     done, spent_s = 0, 0.0
@@ -207,20 +228,20 @@ def train(
     if done < steps:
         counts = {"places": len(lessons), "bodies": lessons.bodies}
         stages = [*stages, {"from_step": done, "planned_steps": steps, **counts}]
-    begun = saved = time.monotonic()
+    begun_s = saved = time.monotonic()
     told = np.zeros(3)
     network.train()
     while done < steps:
         end = min(done + ROUND - done % ROUND, steps)
         for batch in batches(lessons.batch, done, end):
             for group in optimiser.param_groups:
-                group["lr"] = rate_at(done, steps)
+                group["lr"] = rate_at(done, steps, highest)
             told += learn(network, optimiser, lessons, batch)
             mean.update_parameters(network)
             done += 1
             if done % 50 == 0:
                 now = "  ".join(f"{value:.4f}" for value in told / 50)
-                spent = spent_s + time.monotonic() - begun
+                spent = spent_s + time.monotonic() - begun_s
                 print(f"step {done} of {steps}  {spent:.0f} s  {now}", flush=True)
                 told[:] = 0.0
         if time.monotonic() - saved > CHECKPOINT_S or done == steps:
@@ -229,7 +250,7 @@ def train(
                 "fooled": torch.from_numpy(lessons.fooled),
                 "done": done,
                 "stages": stages,
-                "spent_s": spent_s + saved - begun,
+                "spent_s": spent_s + saved - begun_s,
             }
             save(checkpoint, network, mean, optimiser, state)
     averaged = mean.module
@@ -245,6 +266,7 @@ def main() -> None:
     parser.add_argument("--scratch", required=True, type=Path, metavar="DIR")
     parser.add_argument("--steps", type=int, default=12_000, help="batches to train on")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--start", type=Path, metavar="FILE", help="exported network to go on from")
     parser.add_argument("--threads", type=int, default=1)
     given = parser.parse_args()
     torch.set_num_threads(given.threads)
@@ -255,7 +277,7 @@ def main() -> None:
     lessons = Lessons(folders, given.seed)
     print(f"{len(lessons)} places, {lessons.bodies} of them bodies", flush=True)
     checkpoint = given.scratch / "refiner.pt"
-    network, stages = train(lessons, given.steps, checkpoint, given.seed)
+    network, stages = train(lessons, given.steps, checkpoint, given.seed, given.start)
     write_onnx(network, given.network.with_name(FILE))
     path = given.network.with_name(CARD)
     card = json.loads(path.read_text(encoding="utf-8"))
@@ -269,6 +291,7 @@ def main() -> None:
         "parameters": sum(p.numel() for p in network.parameters()),
         "training": {
             "pictures": sum(len(each.pictures) for each in folders),
+            "begun_with": given.start.name if given.start else None,
             "stages": stages,
             "seed": given.seed,
         },
