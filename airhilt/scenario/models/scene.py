@@ -64,7 +64,7 @@ class Weather(Model):
     cloud_cover: Share = Field(
         default=0.0,
         description="share of the sky that thin clouds high up hide; with any, fair-weather clouds "
-        "stand about airports too. No cloud hides traffic from other traffic",
+        "stand about airports too, from 1200 to 1900 m, and hide what is behind them",
     )
 
 

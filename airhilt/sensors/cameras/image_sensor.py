@@ -14,7 +14,9 @@ from airhilt.scenario.models import Imaging
 from airhilt.sim.streams import stream
 
 ONE = 256
-"""Fixed-point 1 of weights and gains."""
+"""Fixed-point 1 of the weights of the blur."""
+FULL_GAIN = 4096
+"""Fixed-point 1 of gains."""
 MOST_BLUR_PX = 0.6
 """Greatest deviation of one pass of the blur, in pixels."""
 ENCODED = 1.0 / 2.2
@@ -44,8 +46,8 @@ class ImageSensor:
         light = 2.0**imaging.exposure_ev * cosine ** (4.0 * imaging.vignetting)
         pattern = draws.standard_normal((*shape, 3), np.float32)
         light = light[..., None] * (1.0 + imaging.fixed_pattern * pattern)
-        gains = np.round(ONE * np.maximum(light, 0.0) ** ENCODED)
-        self._gains = gains.astype(np.uint32 if gains.max() > ONE else np.uint16)
+        gains = np.round(FULL_GAIN * np.maximum(light, 0.0) ** ENCODED)
+        self._name, self._gains = name, gains.astype(np.uint32)
         if imaging.noise_levels > 0.0:
             size = shape[0] + SPARE_PX, shape[1] + SPARE_PX, 3
             grain = draws.standard_normal(size, np.float32)
@@ -58,14 +60,15 @@ class ImageSensor:
         for _ in range(passes):
             side = round(ONE * self._imaging.blur_px**2 / passes / 2.0)
             seen = _blurred(_blurred(seen, side, 1), side, 0)
-        pixels = np.multiply(seen, self._gains, dtype=self._gains.dtype)
-        pixels += ONE // 2
-        pixels //= ONE
-        if pixels.dtype != np.uint16:
-            np.minimum(pixels, 255, out=pixels)
+        pixels = seen * self._gains
+        pixels += FULL_GAIN // 2
+        pixels //= FULL_GAIN
+        np.minimum(pixels, 255, out=pixels)
         if self._imaging.noise_levels > 0.0:
-            row, column = number * 37 % SPARE_PX, number * 23 % SPARE_PX
+            draws = stream(0, f"noise/{self._name}", number)
+            row, column = draws.integers(SPARE_PX, size=2)
             grain = self._grain[row : row + light.shape[0], column : column + light.shape[1]]
+            grain = grain[:: draws.choice((-1, 1)), :: draws.choice((-1, 1))]
             return self._coded(np.clip(pixels + grain, 0, 255).astype(np.uint8))
         return self._coded(pixels.astype(np.uint8))
 
@@ -79,16 +82,11 @@ class ImageSensor:
 
 def _blurred(levels: npt.NDArray[np.uint16], side: int, axis: int) -> npt.NDArray[np.uint16]:
     """Return levels with ``side`` parts in `ONE` of each neighbour along an axis."""
-    spread = levels * np.uint16(ONE - 2 * side)
+    rows = np.moveaxis(levels, axis, 0)
+    ahead = np.concatenate((rows[:1], rows[:-1]))
+    behind = np.concatenate((rows[1:], rows[-1:]))
+    spread = rows * np.uint16(ONE - 2 * side)
+    spread += (ahead + behind) * np.uint16(side)
     spread += ONE // 2
-    ahead, behind = [slice(None)] * 3, [slice(None)] * 3
-    ahead[axis], behind[axis] = slice(1, None), slice(None, -1)
-    part = levels * np.uint16(side)
-    spread[tuple(ahead)] += part[tuple(behind)]
-    spread[tuple(behind)] += part[tuple(ahead)]
-    for end in (0, -1):
-        edge = [slice(None)] * 3
-        edge[axis] = slice(0, 1) if end == 0 else slice(-1, None)
-        spread[tuple(edge)] += part[tuple(edge)]
     spread //= ONE
-    return spread
+    return np.moveaxis(spread, 0, axis)

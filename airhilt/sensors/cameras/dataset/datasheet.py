@@ -45,8 +45,8 @@ Depths, if exported, are along the optical axis in m, as float32.
 **Splits.** Worlds are split, never the pictures of one world: weather, light and landscape are not
 shared. Airports are; export a test set with `--airport` if it must show another place.
 
-**Uses.** Surfaces have no texture and lenses no noise: a detector trained on these pictures alone
-is not one for photographs.
+**Uses.** Textures, lenses and sensors are models: a detector trained on these pictures alone is
+not one for photographs.
 
 **Distribution and maintenance.** The pictures are yours. `airhilt dataset export` with the settings
 above makes them anew.

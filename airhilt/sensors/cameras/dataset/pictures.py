@@ -11,7 +11,7 @@ from typing import Any
 from airhilt.errors import CameraError
 from airhilt.host import library
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import Daylight, Weather
+from airhilt.scenario.models import Daylight, Imaging, Weather
 from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.body_states import states_of
 from airhilt.sensors.cameras.dataset.placement import cast, gone_on
@@ -162,7 +162,7 @@ def _world(
                     step + 1,
                     split,
                     _about(airport, station_of(name), sitting.light, sitting.weather,
-                           sitting.daylight),
+                           sitting.daylight, sitting.cameras[name].imaging),
                 )  # fmt: skip
 
 
@@ -173,13 +173,21 @@ def split_of(world: int, seed: int) -> str:
 
 
 def _about(
-    airport: str | None, station: str, light: Illumination, weather: Weather, daylight: Daylight
+    airport: str | None,
+    station: str,
+    light: Illumination,
+    weather: Weather,
+    daylight: Daylight,
+    imaging: Imaging,
 ) -> dict[str, Any]:
     return {
         "airport": airport,
         "camera_kind": station,
         "visibility_m": round(light.visibility_m, 1),
         "rain_mm_h": round(weather.rain_mm_h, 2),
+        "cloud_cover": round(weather.cloud_cover, 3),
+        "texture": round(light.texture, 3),
+        "imaging": imaging.model_dump(exclude_defaults=True),
         "solar_time_h": round(daylight.solar_time_h, 3),
         "sun_elevation_deg": round(light.sun_elevation_rad / DEGREE, 2),
     }
@@ -255,7 +263,14 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
             for taken in scene_renderer.shoot(wanted, bodies, t_ns):
                 camera = cameras[taken.camera]
                 station = "fixed" if camera.mount.type == "fixed" else camera.mount.station
-                about = _about(airport, station, light, realised.weather, realised.daylight)
+                about = _about(
+                    airport,
+                    station,
+                    light,
+                    realised.weather,
+                    realised.daylight,
+                    camera.imaging,
+                )
                 yield Picture(
                     taken, scene_renderer.actors, camera.carrier, 0,
                     1 + names.index(taken.camera), 1 + index, SPLITS[0], about,

@@ -72,7 +72,8 @@ class Sitting:
     models
         Models by actor: some carry cameras, the others are named after their kind.
     cameras
-        Cameras by their names, which begin with their stations.
+        Cameras by their names, which begin with their stations. No two worlds share one, as noise
+        and rain differ by it.
     order
         Names of all cameras, in the order in which they take their turns.
     """
@@ -109,7 +110,7 @@ class Casting:
             place: None if place == EN_ROUTE else load_layout(place) for place in places
         }
         self._models = {kind: make(kind) for make, group in KINDS for kind, *_ in group}
-        self._in_shade: dict[str, Landscape] = {}
+        self._in_shade: dict[tuple[str, bool], Landscape] = {}
         self._painted = {
             (kind, livery): aircraft_model(kind, livery=livery)
             for kind, *_ in AIRCRAFT
@@ -146,12 +147,12 @@ class Casting:
             model = self._models[kind]
             models[carrier] = model
             station = "nose" if index % 5 < 3 else "tail"
-            name = f"{station}-{index}"
+            name = f"{station}-{index}-{seed}-{number}"
             mount = station_mount(name, carrier, station, model.aircraft)
             cameras[name] = Camera(name, self._lens(draws), mount, _imaging(draws))
         if layout is not None:
             for index in range(FIXED_CAMERAS):
-                name = f"fixed-{index}"
+                name = f"fixed-{index}-{seed}-{number}"
                 cameras[name] = self._fixed(name, layout, landscape, draws)
         names = list(cameras)
         order = [names[index] for index in draws.permutation(len(names))]
@@ -160,12 +161,13 @@ class Casting:
         )
 
     def _airport(self, layout: Layout, light: Illumination) -> Landscape:
-        """Return an airport; without shadows it is the same in all lights."""
+        """Return an airport; without shadows and clouds it is the same in all lights."""
         if casts_shadows(light) or light.shows_deck:
             return airport_landscape(layout, light)
-        if layout.airport.icao not in self._in_shade:
-            self._in_shade[layout.airport.icao] = airport_landscape(layout, light)
-        return self._in_shade[layout.airport.icao]
+        key = layout.airport.icao, light.texture > 0.0
+        if key not in self._in_shade:
+            self._in_shade[key] = airport_landscape(layout, light)
+        return self._in_shade[key]
 
     def _lens(self, draws: np.random.Generator) -> Intrinsics:
         fov = math.exp(draws.uniform(*np.log(FIELDS_OF_VIEW)))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -89,9 +89,9 @@ class RayRenderer:
             pieces = self._adaptively(view, x, y)
         else:
             pieces = self._pieces_at(view, *np.broadcast_arrays(x, y))
-        length = np.sqrt(x * x + (y * y + np.float32(1.0)))
+        rays = Rays.of(view, x, y, samples)
         sky = pieces == MISSED
-        glare = self._look_up(view, x, y, length, pieces, sky)
+        glare = self._look_up(rays, pieces, sky)
         # A plane n p = h is met at the depth h / (n d): its inverse is linear in the picture.
         (right, down, ahead), away = self._planes(view, pieces)
         inverse_depth = _of(right, pieces)
@@ -102,12 +102,12 @@ class RayRenderer:
         inverse_depth += _of(ahead, pieces)
         texture = None
         if self._light.texture > 0.0:
-            texture = self._texture(view, samples, x, y, length, inverse_depth, pieces, away)
+            texture = self._texture(rays, inverse_depth, pieces, away)
         with np.errstate(divide="ignore"):
-            distance = np.divide(length, inverse_depth, out=inverse_depth)
+            distance = np.divide(rays.length, inverse_depth, out=inverse_depth)
         left = np.exp(distance * np.float32(-self._light.background_extinction_per_m))
         np.copyto(left, np.float32(1.0), where=sky)
-        deck = self._deck(view, samples, x, y, length, sky)
+        deck = self._deck(rays, sky)
         return Samples(self._colour_of(pieces, left, texture, deck, glare), distance)
 
     def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
@@ -187,44 +187,40 @@ class RayRenderer:
         # The first entry is that of a miss, whose number is -1.
         return _of(self._piece_of, met + 1).reshape(x.shape)
 
-    def _look_up(
-        self, view: View, x: Floats, y: Floats, length: Floats, pieces: Pieces, sky: Mask
-    ) -> Glare | None:
+    def _look_up(self, rays: Rays, pieces: Pieces, sky: Mask) -> Glare | None:
         """Tell pieces of the sky apart by their elevation; return the glare of the sun on them."""
         rows = np.flatnonzero(sky.any(axis=1))
         if not len(rows):
             return None
         block = slice(int(rows[0]), int(rows[-1]) + 1)
+        view, x, y, length = rays.view, rays.x, rays.y[block], rays.length[block]
         axes = view.axes.astype(np.float32)
-        up = (x * axes[2, 0] + (y[block] * axes[2, 1] + axes[2, 2])) / length[block]
+        up = (x * axes[2, 0] + (y * axes[2, 1] + axes[2, 2])) / length
         steps = self._light.sky_steps(up)
         steps += len(self._heights)
         np.copyto(pieces[block], steps, where=sky[block])
         # The sun's glare, if any of it is in the picture.
         sun = view.axes.T @ self._light.sun
-        across = sun[0] * x + (sun[1] * y[block] + sun[2])
-        near = np.flatnonzero((across > self._light.glare_from * length[block]) & sky[block])
+        across = sun[0] * x + (sun[1] * y + sun[2])
+        near = np.flatnonzero((across > self._light.glare_from * length) & sky[block])
         if not len(near) or not self._light.glare.any():
             return None
-        apart = np.float32(1.0) - (across / length[block]).reshape(-1)[near].astype(np.float32)
+        apart = np.float32(1.0) - (across / length).reshape(-1)[near].astype(np.float32)
         return near + block.start * pieces.shape[1], self._light.glare_at(apart)
 
-    def _deck(
-        self, view: View, samples: int, x: Floats, y: Floats, length: Floats, sky: Mask
-    ) -> Deck | None:
+    def _deck(self, rays: Rays, sky: Mask) -> Deck | None:
         """Return how much of the sky the deck of clouds hides."""
-        if view.pose.position_m[2] > DECK_M or not self._light.shows_deck:
+        eye = rays.view.pose.position_m
+        if eye[2] > DECK_M or not self._light.shows_deck:
             return None
-        _, _, ahead = axes = view.axes.astype(np.float32)
-        above = x * ahead[0] + (y * ahead[1] + ahead[2]) > 0.0
+        right, down, ahead = rays.view.axes[2].astype(np.float32)
+        above = rays.x * right + (rays.y * down + ahead) > 0.0
         flat = np.flatnonzero(sky & above)
         if not len(flat):
             return None
-        row, column = np.divmod(flat, sky.shape[1])
-        right, down, far = x[0, column], y[row, 0], length.reshape(-1)[flat]
-        towards = np.stack([(right * a + down * b + c) / far for a, b, c in axes])
-        pixel_rad = 1.0 / (view.intrinsics.focal_px * samples)
-        return flat, deck(towards, view.pose.position_m, pixel_rad, self._light.clouds)
+        towards = rays.to(flat)
+        towards /= rays.length.reshape(-1)[flat]
+        return flat, deck(towards, eye, rays.sample_rad, self._light.clouds)
 
     def _planes(self, view: View, pieces: Pieces) -> tuple[Floats, Floats]:
         """Return how the inverse depth grows to the right, down and ahead, and distances of planes.
@@ -246,38 +242,21 @@ class RayRenderer:
         away[met] = np.abs(heights)
         return slopes, away
 
-    def _texture(
-        self,
-        view: View,
-        samples: int,
-        x: Floats,
-        y: Floats,
-        length: Floats,
-        inverse_depth: Floats,
-        pieces: Pieces,
-        away: Floats,
-    ) -> Floats:
+    def _texture(self, rays: Rays, inverse_depth: Floats, pieces: Pieces, away: Floats) -> Floats:
         """Return by what share each sample is brighter or darker than its piece."""
         found = np.zeros(pieces.shape, dtype=np.float32)
         flat = np.flatnonzero(inverse_depth > 0.0)
-        row, column = np.divmod(flat, pieces.shape[1])
         depth = 1.0 / inverse_depth.reshape(-1)[flat]
-        right, down = x[0, column], y[row, 0]
-        place = np.empty((3, len(flat)), dtype=np.float32)
-        for axis, eye, ways in zip(place, view.pose.position_m, view.axes, strict=True):
-            across, along, ahead = ways.astype(np.float32)
-            np.multiply(right, across, out=axis)
-            axis += down * along
-            axis += ahead
-            axis *= depth
-            axis += np.float32(eye)
+        place = rays.to(flat)
+        place *= depth
+        place += np.asarray(rays.view.pose.position_m, dtype=np.float32)[:, None]
         piece = pieces.reshape(-1)[flat]
         # A pixel shows more of a slanting surface lengthwise than across: the mean of both.
-        footprint = depth * length.reshape(-1)[flat]
+        footprint = depth * rays.length.reshape(-1)[flat]
         footprint /= _of(away, piece)
         np.sqrt(footprint, out=footprint)
         footprint *= depth
-        footprint *= np.float32(1.0 / (view.intrinsics.focal_px * samples))
+        footprint *= np.float32(rays.sample_rad)
         varied = factors(on_surface(_of(self._materials, piece), place, footprint))
         varied -= np.float32(1.0)
         varied *= np.float32(self._light.texture)
@@ -315,6 +294,45 @@ class RayRenderer:
                 seen.reshape(-1)[glare[0]] += glare[1][index] * np.float32(LEVELS)
             colour[..., index] = encode_levels(seen)
         return colour
+
+
+class Rays(NamedTuple):
+    """Rays to the samples of a window.
+
+    Attributes
+    ----------
+    x, y
+        Places of the samples on the focal plane, shapes (1, columns) and (rows, 1).
+    length
+        Distances to them from the eye, shape (rows, columns); that of the plane is 1.
+    sample_rad
+        Angle that a sample takes in the middle of the picture.
+    """
+
+    view: View
+    x: Floats
+    y: Floats
+    length: Floats
+    sample_rad: float
+
+    @classmethod
+    def of(cls, view: View, x: Floats, y: Floats, samples: int) -> Rays:
+        """Return the rays to places; a pixel has ``samples`` along each side."""
+        length = np.sqrt(x * x + (y * y + np.float32(1.0)))
+        return cls(view, x, y, length, 1.0 / (view.intrinsics.focal_px * samples))
+
+    def to(self, flat: npt.NDArray[np.intp]) -> Floats:
+        """Return the ways from the eye to some samples by their numbers, shape (3, n)."""
+        row, column = np.divmod(flat, self.length.shape[1])
+        right, down = self.x[0, column], self.y[row, 0]
+        ways = np.empty((3, len(flat)), dtype=np.float32)
+        for way, (across, along, ahead) in zip(
+            ways, self.view.axes.astype(np.float32), strict=True
+        ):
+            np.multiply(right, across, out=way)
+            way += down * along
+            way += ahead
+        return ways
 
 
 def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDArray[Number]:

@@ -123,8 +123,8 @@ class ModernGLRenderer:
         if self._light.texture == 0.0 and not self._light.shows_deck:
             return
         for unit, tile in enumerate(tiles(), start=1):
-            data = tile.factors.astype(np.float16).tobytes()
-            texture = context.texture_array((SIDE, SIDE, len(tile.factors)), 1, data, dtype="f2")
+            data = tile.finest.astype(np.float16)
+            texture = context.texture_array((SIDE, SIDE, len(data)), 1, data.tobytes(), dtype="f2")
             texture.build_mipmaps()
             texture.filter = context.NEAREST_MIPMAP_NEAREST, context.NEAREST
             texture.use(unit)

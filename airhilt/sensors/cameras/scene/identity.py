@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 import numpy.typing as npt
+import PIL
 
 import airhilt.imaging
 import airhilt.sensors.cameras
@@ -34,7 +35,7 @@ def landscape_identity(renderer: str, landscape: Landscape, light: Illumination)
     code = packages_sha256(
         airhilt.imaging, airhilt.sensors.cameras, airhilt.shapes, airhilt.world.surface.kinds
     )
-    drawn_by = [code, library, np.__version__, processor_sha256(), renderer]
+    drawn_by = [code, library, np.__version__, PIL.__version__, processor_sha256(), renderer]
     return _sha256([*drawn_by, light.key, landscape.lights, _arrays(landscape.mesh.arrays)])
 
 

@@ -243,7 +243,6 @@ class _Airport:
         yield Layer(lines.difference(self._runways), (YELLOW,))
         if self._detail.wear:
             yield Layer(self._stand_lines(), (YELLOW,))
-        if self._detail.wear:
             yield Layer(self._rubber(), (RUBBER,), Material.ASPHALT)
         yield self._mottled(self._runways, ASPHALT, Material.ASPHALT, 90, 0.05, "asphalt")
         yield self._mottled(self._taxiways, TAXI_ASPHALT, Material.ASPHALT, 90, 0.05, "taxiways")

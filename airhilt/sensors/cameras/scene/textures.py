@@ -249,14 +249,16 @@ class Tile:
         Factors of all materials and levels, one behind the other, after a tile of ones.
     starts
         Where levels begin in it, by material and level: that of material m is at m LEVELS + level.
-    factors
-        Factors of all materials at the finest level, shape (materials, rows, columns).
     """
 
     texel_m: float
     table: Floats
     starts: npt.NDArray[np.int32]
-    factors: Floats
+
+    @property
+    def finest(self) -> Floats:
+        """Factors of all materials at the finest level, shape (materials, rows, columns)."""
+        return self.table[self.starts[::LEVELS, None] + np.arange(SIDE**2)].reshape(-1, SIDE, SIDE)
 
 
 class Places(NamedTuple):
@@ -369,16 +371,15 @@ def tiles() -> tuple[Tile, ...]:
 
 def _tile(number: int, grain: Grain) -> Tile:
     starts = np.zeros((len(Material), LEVELS), dtype=np.int32)
-    factors = np.ones((len(Material), SIDE, SIDE), dtype=np.float32)
     table = [np.ones(SIDE**2, dtype=np.float32)]
     filled = SIDE**2
     for material, pattern in grain.patterns.items():
         drawn = pattern(stream(SEED, f"texture {number} {material.name}"))
-        factors[material] = texels = np.asarray(1.0 + drawn - drawn.mean(), dtype=np.float32)
+        texels = np.asarray(1.0 + drawn - drawn.mean(), dtype=np.float32)
         for level in range(LEVELS):
             starts[material, level] = filled
             table.append(texels.reshape(-1))
             filled += texels.size
             if half := len(texels) // 2:
                 texels = texels.reshape(half, 2, half, 2).mean(axis=(1, 3))
-    return Tile(grain.texel_m, np.concatenate(table), starts.reshape(-1), factors)
+    return Tile(grain.texel_m, np.concatenate(table), starts.reshape(-1))
