@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
 
 RENDERER_HELP = (
-    "What draws pictures: auto (embree, which draws the same on all machines, or open3d where it "
-    "cannot be had), fastest (moderngl where it can draw), embree, open3d, moderngl, or a renderer "
+    "What draws pictures: auto (embree whatever else is installed, open3d where it cannot be had), "
+    "fastest (moderngl where it can draw), embree, open3d, moderngl, or a renderer "
     "of another package."
 )
 """Help of ``--renderer``, for runs and for the commands that draw pictures."""

@@ -20,6 +20,7 @@ import detector_disturbances as disturbances
 import detector_lessons as lessons
 import detector_places as places
 import eval_detector as judging
+import eval_disturbed as disturbed
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.detectors.embedded import Calibration
 from airhilt.sensors.cameras.dataset.placement import gone_on
@@ -204,7 +205,7 @@ def seen(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
         dataclasses.replace(shot, bodies=(dataclasses.replace(body(), corner=(30, 40), mask=mask),))
         for shot in data.read_folder(folder)
     ]
-    return list(disturbances.half_disturbed(shots, 3))
+    return list(disturbances.half_disturbed(shots, (3,)))
 
 
 class TestDisturbances:
@@ -212,6 +213,14 @@ class TestDisturbances:
         masks = seen[0][0].masks()
         assert masks.sum() == 200
         assert masks[30:40, 40:60].all()
+
+    def test_a_large_picture_is_disturbed_too(self) -> None:
+        large = np.full((720, 1280, 3), 100, dtype=np.uint8)
+        bodies = np.zeros((720, 1280), dtype=bool)
+        disturber = disturbances.Disturber(3)
+        taken = [disturber(large, bodies, np.random.default_rng(seed)) for seed in range(4)]
+        assert {each.picture.shape for each in taken} == {large.shape}
+        assert any(each.picture.std() > 1.0 for each in taken)
 
     def test_every_second_picture_is_as_it_was(self, seen: list[Any]) -> None:
         assert all((picture == 100).all() for _, picture in seen[::2])
@@ -227,11 +236,49 @@ class TestDisturbances:
 
     def test_pictures_are_disturbed_alike_from_one_time_to_the_next(self, seen: list[Any]) -> None:
         """Pictures with other numbers have other disturbances."""
-        again = list(disturbances.half_disturbed([shot for shot, _ in seen], 3))
+        again = list(disturbances.half_disturbed([shot for shot, _ in seen], (3,)))
         assert all(
             np.array_equal(one, other) for (_, one), (_, other) in zip(seen, again, strict=True)
         )
         assert len({float(picture.mean()) for _, picture in seen[1::2]}) > 10
+
+
+class TestJudgingDisturbed:
+    """A grey plain with a body of 80 levels, under noise of 10."""
+
+    def sight(self, apart: float, found_: bool, size_px: float = 30.0) -> Any:
+        return disturbed.Sight(0, 0, size_px, apart, found_)
+
+    def test_bodies_are_apart_by_their_contrast_in_deviations(self) -> None:
+        sights = [self.sight(apart, True) for apart in (9.0, 4.0, 3.9, 2.0, 1.9)]
+        assert [len(group) for group in disturbed.groups(sights)] == [2, 2, 1]
+
+    def test_the_deviation_is_that_of_what_was_added_by_its_strongest_colour(self) -> None:
+        draws = np.random.default_rng(1)
+        drawn = np.full((60, 100, 3), 100, dtype=np.uint8)
+        noise = draws.normal(0.0, (3.0, 10.0, 3.0), drawn.shape).round()
+        seen = (drawn + noise).astype(np.uint8)
+        shot = data.Shot(Path("none.jpg"), {"width": 100, "height": 60}, (body(),))
+        added = disturbed.deviation_of(shot, body(), drawn, seen, of_itself=False)
+        assert added == pytest.approx(10.0, rel=0.15)
+
+    def test_a_body_is_no_part_of_the_deviation_of_a_picture_itself(self) -> None:
+        picture = np.full((60, 100, 3), 100, dtype=np.uint8)
+        picture[30:40, 40:60] = 250
+        mask = np.ones((10, 20), dtype=bool)
+        one = dataclasses.replace(body(), corner=(30, 40), mask=mask)
+        shot = data.Shot(Path("none.jpg"), {"width": 100, "height": 60}, (one,))
+        assert disturbed.deviation_of(shot, one, picture, picture, of_itself=True) == 0.0
+
+    def test_a_row_has_the_same_bodies_without_the_disturbance_beside_it(self) -> None:
+        outcomes = {
+            disturbed.AS_IT_IS: disturbed.Outcome((self.sight(30.0, True),), 0),
+            "texture": disturbed.Outcome((self.sight(5.0, False),), 3),
+        }
+        row = disturbed.table_of(outcomes)[1]
+        assert row["at least 4"] == {"airplanes": 1, "found": 0.0, "as it is": 1.0}
+        assert row["2 to 4"] == {"airplanes": 0, "found": None, "as it is": None}
+        assert row["false on empty"] == 3
 
 
 class TestLessons:

@@ -43,7 +43,7 @@ from airhilt.assistant.vision.detectors.embedded import (
     EmbeddedDetector,
 )
 from airhilt.assistant.vision.tracker import Tracker
-from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.assistant.vision.worker import beside
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import CONFIRMED_HITS, CameraView
 from airhilt.sensors.cameras.dataset.pictures import scene_renderer_of
@@ -147,11 +147,7 @@ def false_detections(detector: EmbeddedDetector, pictures: Iterator[Exposure]) -
     found: list[Found] = []
     for shot in pictures:
         if not shot.unchanged:
-            found = [
-                each
-                for each in detector.detect(shot.picture)
-                if covered_share(each.box, shot.own) <= MOST_OF_OWN_AIRCRAFT
-            ]
+            found = beside(shot.own, detector.detect(shot.picture))
         for threshold, tracker in trackers.items():
             heard = [each for each in found if each.confidence >= DOUBTFUL * threshold]
             confirmed[threshold] |= {
@@ -201,18 +197,15 @@ def findings(
     """
     found: list[Found] = []
     is_true: list[bool] = []
-    seen = half_disturbed(pictures, seed)
+    seen = half_disturbed(pictures, (seed,))
     for shot, picture in track(
         seen, "pictures", len(pictures), transient=True, disable=not sys.stderr.isatty()
     ):
-        own = shot.own_aircraft()
         told = sorted(detector.uncalibrated(picture), key=lambda one: -one.confidence)
         here = [
             each
-            for each in once(told)
-            if each.confidence >= SMALL_CHANCE
-            and covered_share(each.box, own) <= MOST_OF_OWN_AIRCRAFT
-            and not on_faint(shot.bodies, each)
+            for each in beside(shot.own_aircraft(), once(told))
+            if each.confidence >= SMALL_CHANCE and not on_faint(shot.bodies, each)
         ]
         _, used = matched(shot.bodies, here, loosely)
         found += here

@@ -17,6 +17,7 @@ from io import BytesIO
 import numpy as np
 import numpy.typing as npt
 from PIL import Image, ImageFilter
+from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from detector_data import Body, Shot
@@ -92,6 +93,10 @@ class Disturber:
 
     def field(self, rows: int, columns: int, draws: Draws) -> Floats:
         """Return a mixture of fields, of a standard deviation of about 1."""
+        if (larger := max(rows, columns) / SIDE_PX) > 1.0:
+            small = self.field(int(rows / larger), int(columns / larger), draws)
+            enlarged = Image.fromarray(small).resize((columns, rows), Image.Resampling.BILINEAR)
+            return np.asarray(enlarged)
         mixed, total = np.zeros((rows, columns), dtype=np.float32), 0.0
         for _ in range(int(draws.integers(1, 4))):
             zoom = 1 if max(rows, columns) > SIDE_PX // 2 or draws.random() < 0.6 else 2
@@ -139,20 +144,21 @@ class Disturber:
             field = self.field(rows, columns, draws)[..., None]
             behind = behind + field * draws.uniform(2.0, 45.0) * (1.0 + draws.normal(0.0, 0.15, 3))
         behind = behind.astype(np.float32)
-        away = np.abs(levels - behind).max(axis=2)[bodies]
-        if away.size and np.median(away) < LEAST_APART:
+        parts, count = ndimage.label(bodies)
+        away = ndimage.median(np.abs(levels - behind).max(axis=2), parts, range(1, count + 1))
+        if count and np.min(away) < LEAST_APART:
             return levels, 0.0
         soft = _soft(bodies)
         return levels * soft + behind * (1.0 - soft), 0.5 * float(behind.mean(axis=2).std())
 
 
-def half_disturbed(shots: Sequence[Shot], seed: int) -> Iterator[tuple[Shot, Picture]]:
+def half_disturbed(shots: Sequence[Shot], seed: tuple[int, ...]) -> Iterator[tuple[Shot, Picture]]:
     """Yield shots with their pixels, every second disturbed."""
-    disturber = Disturber(seed)
+    disturber = Disturber(seed[0])
     for index, shot in enumerate(shots):
         picture = shot.picture()
         if index % 2:
-            draws = np.random.default_rng((seed, index))
+            draws = np.random.default_rng((*seed, index))
             taken = disturber(picture, shot.masks(), draws)
             picture = taken.picture
             shot = dataclasses.replace(shot, bodies=taken.bodies(shot.bodies))

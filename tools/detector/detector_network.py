@@ -66,13 +66,13 @@ class Network(nn.Module):
         self, widths: tuple[int, int, int, int] = WIDTHS, blocks: tuple[int, int, int] = BLOCKS
     ) -> None:
         super().__init__()
-        supersampling, middle, coarse, last = widths
-        self.stem = nn.Conv2d(3, supersampling, 6, STEM_STRIDE, 1, bias=False)
-        self.stem_local = nn.Conv2d(1, supersampling, 6, STEM_STRIDE, 1, bias=False)
-        self.stem_norm = nn.Sequential(nn.BatchNorm2d(supersampling), nn.ReLU(inplace=True))
-        self.supersampling = nn.Sequential(*(Block(supersampling, 16) for _ in range(blocks[0])))
+        fine, middle, coarse, last = widths
+        self.stem = nn.Conv2d(3, fine, 6, STEM_STRIDE, 1, bias=False)
+        self.stem_local = nn.Conv2d(1, fine, 6, STEM_STRIDE, 1, bias=False)
+        self.stem_norm = nn.Sequential(nn.BatchNorm2d(fine), nn.ReLU(inplace=True))
+        self.fine = nn.Sequential(*(Block(fine, 16) for _ in range(blocks[0])))
         self.middle = nn.Sequential(
-            convolution(supersampling, middle, 2),
+            convolution(fine, middle, 2),
             *(Block(middle, middle // 2) for _ in range(blocks[1])),
         )
         self.coarse = nn.Sequential(
@@ -90,10 +90,8 @@ class Network(nn.Module):
     def forward(self, pictures: Tensor) -> tuple[Tensor, Tensor]:
         """Return the maps of scores and those of places and sizes."""
         light = functional.conv2d(pictures, self.stem.weight / LIGHT, None, STEM_STRIDE, 1)
-        supersampling = self.supersampling(
-            self.stem_norm(light + self.stem_local(_local(pictures)))
-        )
-        middle = self.middle(supersampling)
+        fine = self.fine(self.stem_norm(light + self.stem_local(_local(pictures))))
+        middle = self.middle(fine)
         middle = middle + _enlarged(self.to_middle(self.coarse(middle)), 2)
         maps = self.maps(self.head(middle))
         return maps[:, : len(CLASSES)], maps[:, len(CLASSES) :]

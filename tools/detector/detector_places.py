@@ -12,9 +12,10 @@ import numpy as np
 import numpy.typing as npt
 from rich.progress import track
 
+import detector_disturbances
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
-from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.assistant.vision.worker import beside
 from airhilt.imaging.boxes import centre, overlap, size_px
 from airhilt.messages import Box
 from detector_data import Body, Shot, read_folder
@@ -70,10 +71,13 @@ def places_of(folder: Path, network: Path, scratch: Path, seed: int) -> Places:
     Every second picture is disturbed.
     """
     limits = repr((LEAST_SCORE, MOST, TRUE, FALSE, NEAR_IT, NEAR_IT_PX, ALIKE, seed)).encode()
-    kept = scratch / f"{folder.name}-{mark_of([limits, network.read_bytes(), contents(folder)])}"
+    code = Path(detector_disturbances.__file__).read_bytes()
+    mark = mark_of([limits, code, network.read_bytes(), contents(folder)])
+    kept = scratch / f"{folder.name}-{mark}"
     names, file = kept.with_suffix(".npz"), kept.with_suffix(".u8")
     if not names.is_file():
-        _write(names, file, read_folder(folder), EmbeddedDetector(network), seed)
+        draws = seed, int(mark_of([contents(folder)]), 16)
+        _write(names, file, read_folder(folder), EmbeddedDetector(network), draws)
     with np.load(names, allow_pickle=False) as data:
         return Places(
             np.memmap(file, np.uint8, "r", shape=tuple(data["shape"])),
@@ -86,7 +90,11 @@ def places_of(folder: Path, network: Path, scratch: Path, seed: int) -> Places:
 
 
 def _write(
-    path: Path, file: Path, shots: Sequence[Shot], detector: EmbeddedDetector, seed: int
+    path: Path,
+    file: Path,
+    shots: Sequence[Shot],
+    detector: EmbeddedDetector,
+    seed: tuple[int, ...],
 ) -> None:
     """Ask the first network about all pictures; ``path`` is there once all are in it."""
     rows: list[tuple[Any, ...]] = []
@@ -107,11 +115,9 @@ def _write(
 
 def places_in(shot: Shot, found: Sequence[Found]) -> Iterator[tuple[Box, float, int, Box]]:
     """Yield boxes, scores, labels and boxes of bodies of what teaches something."""
-    own = shot.own_aircraft()
     counting = [body for body in shot.bodies if body.counts]
-    for each in [one for one in found if one.confidence >= LEAST_SCORE][:MOST]:
-        if covered_share(each.box, own) > MOST_OF_OWN_AIRCRAFT:
-            continue
+    sure = [one for one in found if one.confidence >= LEAST_SCORE][:MOST]
+    for each in beside(shot.own_aircraft(), sure):
         near = [body for body in counting if is_at(body, each)]
         if near:
             body = max(near, key=lambda body: _likeness(body, each))

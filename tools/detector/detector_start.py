@@ -29,6 +29,9 @@ def begin_with(network: nn.Module, path: Path) -> dict[str, Tensor]:
         if node.op_type == "Conv" and not node.input[1].startswith("network.")
     ]
     named = {name.removeprefix("network."): weight for name, weight in weights.items()}
+    for name, module in network.named_modules():
+        if isinstance(module, nn.Linear) and f"{name}.weight" not in named:
+            raise SystemExit(f"{path}: no weights named 'network.{name}.weight'")
     for name in named.keys() & own.keys():
         own[name].copy_(named.pop(name))
     convolutions = [

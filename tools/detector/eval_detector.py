@@ -34,7 +34,7 @@ from typing import Any
 from rich.progress import track
 
 from airhilt.assistant.vision.detector import Detector, Found, Picture
-from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.assistant.vision.worker import beside
 from airhilt.engine_families import DETECTORS
 from airhilt.imaging.boxes import centre, overlap, share_of_smaller
 from airhilt.imaging.matching import is_about
@@ -153,6 +153,11 @@ def surely_found(engine: Detector, picture: Picture) -> list[Found]:
     return [each for each in engine.detect(picture) if each.confidence >= engine.threshold]
 
 
+def found_in(engine: Detector, shot: Shot, picture: Picture) -> list[Found]:
+    """Return what of a shot counts by itself, seen as a picture, beside the own aircraft."""
+    return beside(shot.own_aircraft(), surely_found(engine, picture))
+
+
 def judge(engine: Detector, shots: Sequence[Shot]) -> Judgement:
     """Return what a detector finds in pictures, and what it does not.
 
@@ -160,12 +165,7 @@ def judge(engine: Detector, shots: Sequence[Shot]) -> Judgement:
     """
     judgement = Judgement()
     for shot in track(shots, "pictures", transient=True, disable=not sys.stderr.isatty()):
-        own = shot.own_aircraft()
-        found = [
-            each
-            for each in surely_found(engine, shot.picture())
-            if covered_share(each.box, own) <= MOST_OF_OWN_AIRCRAFT
-        ]
+        found = found_in(engine, shot, shot.picture())
         strict, used = matched(shot.bodies, found, strictly)
         loose, _ = matched(shot.bodies, found, loosely)
         judgement.true += sum(shot.bodies[number].counts for number in strict)

@@ -161,6 +161,12 @@ def begun(tiles: Tiles, start: Path) -> Network:
     return network
 
 
+def rate_at(step: int, steps: int, highest: float) -> float:
+    """Return the learning rate: a warm-up, then a cosine."""
+    rate = highest * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
+    return max(rate, 1e-5)
+
+
 def optimiser_of(network: Network) -> torch.optim.Optimizer:
     """Return the optimiser; only weights of several dimensions decay."""
     scaled = [p for p in network.parameters() if p.ndim > 1]
@@ -215,9 +221,8 @@ def train(
     means = np.zeros(3)
     network.train()
     for step, (pictures, *maps) in rounds(tiles, mean, done, steps):
-        rate = highest * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
         for group in optimiser.param_groups:
-            group["lr"] = max(rate, 1e-5)
+            group["lr"] = rate_at(step, steps, highest)
         scores, boxes = network(seen_as(pictures))
         losses = loss_of(scores, boxes, *maps)
         optimiser.zero_grad(set_to_none=True)

@@ -5,9 +5,8 @@
 
 ``tools/detector/train_detector.py`` makes the network that sees a whole picture. Here it is asked
 what it makes of pictures; whether a body of `airhilt dataset export` is at each place that it
-names is
-known, and that is what the second network learns to tell, with the body's class and box (see
-`airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has taken
+names is known, and that is what the second network learns to tell, with the body's class and box
+(see `airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has taken
 for something. Places on bodies that can hardly be seen teach nothing.
 
 Every second picture is disturbed, as the first network's were (see `detector_disturbances`).
@@ -22,7 +21,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import time
 from pathlib import Path
 
@@ -35,6 +33,7 @@ from airhilt.assistant.vision.detectors.embedded import CARD
 from airhilt.assistant.vision.refiner import VIEW_PX
 from detector_data import CLASSES
 from detector_lessons import Lessons
+from detector_network import convolution
 from detector_places import places_of
 from detector_start import begin_with, measure
 from train_detector import (
@@ -44,6 +43,7 @@ from train_detector import (
     NOT_CALIBRATED,
     batches,
     followed,
+    rate_at,
     resume,
     save,
 )
@@ -55,7 +55,7 @@ WIDTHS = (16, 48, 64)
 NEAR_BLOCKS, WIDE_BLOCKS = (1, 2), (0, 1)
 """At half and a quarter of the resolution."""
 LAST = 128
-RATE, WARM_UP, DECAY = 2e-3, 200, 1e-2
+RATE, DECAY = 2e-3, 1e-2
 BOX_WORTH = 1.0
 ROUND = 250
 """Batches after which hard places are chosen anew."""
@@ -63,15 +63,6 @@ CHECKPOINT_S = 120.0
 
 
 # --- the network --------------------------------------------------------------------------
-
-
-def convolution(inward: int, outward: int, step: int = 1, size: int = 3) -> nn.Sequential:
-    """Return a convolution with normalisation and rectifier."""
-    return nn.Sequential(
-        nn.Conv2d(inward, outward, size, step, size // 2, bias=False),
-        nn.BatchNorm2d(outward),
-        nn.ReLU(inplace=True),
-    )
 
 
 class Block(nn.Module):
@@ -88,11 +79,11 @@ class Block(nn.Module):
 
 def tower(blocks: tuple[int, int]) -> nn.Sequential:
     """Return what makes features of a view."""
-    supersampling, coarse, last = WIDTHS
+    fine, coarse, last = WIDTHS
     return nn.Sequential(
-        convolution(4, supersampling, 2, 5),
-        *(Block(supersampling) for _ in range(blocks[0])),
-        convolution(supersampling, coarse, 2),
+        convolution(4, fine, step=2, size=5),
+        *(Block(fine) for _ in range(blocks[0])),
+        convolution(fine, coarse, 2),
         *(Block(coarse) for _ in range(blocks[1])),
         convolution(coarse, last, 2),
         nn.Flatten(),
@@ -168,12 +159,6 @@ def begun(lessons: Lessons, start: Path) -> Network:
     batches = (lessons.batch(BEFORE_ALL + number) for number in range(MEASURED))
     measure(network, (tuple(map(torch.from_numpy, batch[1:3])) for batch in batches))
     return network
-
-
-def rate_at(step: int, steps: int, highest: float) -> float:
-    """Return the learning rate: a warm-up, then a cosine."""
-    rate = highest * min((step + 1) / WARM_UP, 0.5 + 0.5 * math.cos(math.pi * step / steps))
-    return max(rate, 1e-5)
 
 
 def learn(

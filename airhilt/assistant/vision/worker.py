@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -102,7 +102,7 @@ class VisionWorker:
                 raise
             return seen.model_copy(update={"missed": str(missed)})
         if mask is not None:
-            found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
+            found = beside(mask, found)
         detections = tracker.follow(header.t_frame_ns, header.view, found)
         return seen.model_copy(update={"detections": tuple(detections)})
 
@@ -118,6 +118,11 @@ class VisionWorker:
         )
         shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask, view=header.view)
         return self._gate.look_at(shot, picture, expected)
+
+
+def beside(own_aircraft: Mask, found: Iterable[Found]) -> list[Found]:
+    """Return what is found that is no part of the aircraft which carries the camera."""
+    return [one for one in found if covered_share(one.box, own_aircraft) <= MOST_OF_OWN_AIRCRAFT]
 
 
 def covered_share(box: Box, mask: Mask) -> float:

@@ -1,7 +1,7 @@
 """Cameras: the scene, what draws it, and what is true of each picture."""
 
 AUTO = "auto"
-"""Renderer: the one that draws the same bytes on all machines."""
+"""Renderer: the same one whatever else is installed, so that machines draw alike."""
 FASTEST = "fastest"
 """Renderer: the one that draws in the least time."""
 STILL_SAMPLES = 3

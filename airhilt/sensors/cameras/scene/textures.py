@@ -258,7 +258,8 @@ class Tile:
     @property
     def finest(self) -> Floats:
         """Factors of all materials at the finest level, shape (materials, rows, columns)."""
-        return self.table[self.starts[::LEVELS, None] + np.arange(SIDE**2)].reshape(-1, SIDE, SIDE)
+        finest = self.table[self.starts[::LEVELS, None] + np.arange(SIDE**2)]
+        return np.asarray(finest.reshape(-1, SIDE, SIDE))
 
 
 class Places(NamedTuple):
