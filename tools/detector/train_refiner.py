@@ -6,8 +6,8 @@
 ``tools/detector/train_detector.py`` makes the network that sees a whole picture. Here it is asked
 what it makes of pictures; whether a body of `airhilt dataset export` is at each place that it
 names is known, and that is what the second network learns to tell, with the body's class and box
-(see `airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has taken
-for something. Places on bodies that can hardly be seen teach nothing.
+(see `airhilt.assistant.vision.refiner`). Of what is nothing it is shown most often what it has
+taken for something. Places on bodies that can hardly be seen teach nothing.
 
 Every second picture is disturbed, as the first network's were (see `detector_disturbances`).
 

@@ -161,6 +161,16 @@ def test_no_two_places_have_the_same_weather_and_bodies_by_one_seed() -> None:
     assert not places[0] & places[1]
 
 
+def test_a_world_is_the_same_whatever_came_before_it() -> None:
+    """Airports in the shade are kept from world to world: one without texture, then one with."""
+    used, fresh = Casting(["LSZH"], SIZE), Casting(["LSZH"], SIZE)
+    plain, textured = (used.sitting(number, 0, "dataset") for number in (8, 10))
+    assert plain.light.texture == 0.0 < textured.light.texture
+    alone = fresh.sitting(10, 0, "dataset").landscape.mesh
+    pairs = zip(alone.arrays, textured.landscape.mesh.arrays, strict=True)
+    assert all(np.array_equal(one, other) for one, other in pairs)
+
+
 def test_every_place_is_in_the_first_hundred_pictures_and_splits_share_no_world() -> None:
     casting = Casting([*library.names("airports"), EN_ROUTE], SIZE)
     worlds = range(100 // PICTURES_PER_WORLD)

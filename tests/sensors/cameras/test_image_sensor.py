@@ -55,8 +55,23 @@ def test_noise_differs_from_picture_to_picture_and_the_fixed_pattern_does_not() 
     assert not np.array_equal(first, second)
     assert np.array_equal(first, exposed(GREY, 0, noise_levels=4.0))
     first, second = (exposed(GREY, number, fixed_pattern=0.05) for number in (0, 1))
-    assert first.std() > 1.0
+    assert first.std() == pytest.approx(128.0 * 0.05 / 2.2, rel=0.1)
     assert np.array_equal(first, second)
+
+
+def test_a_weak_pattern_is_not_made_stronger_by_rounding() -> None:
+    """Whole levels add a deviation of 0.29 at most."""
+    assert exposed(GREY, fixed_pattern=0.005).std() < 128.0 * 0.005 / 2.2 + 0.1
+    assert exposed(GREY, fixed_pattern=0.005).mean() == pytest.approx(128.0, abs=0.05)
+
+
+def test_two_cameras_have_noise_of_their_own_and_it_does_not_come_back() -> None:
+    imaging = Imaging(noise_levels=4.0, fixed_pattern=0.05)
+    tower, nose = (ImageSensor(name, LENS, imaging).expose(GREY, 0) for name in ("tower", "nose"))
+    assert abs(np.corrcoef(tower.ravel(), nose.ravel())[0, 1]) < 0.05
+    sensor = ImageSensor("tower", LENS, Imaging(noise_levels=4.0))
+    pictures = {sensor.expose(GREY, number).tobytes() for number in range(300)}
+    assert len(pictures) > 290
 
 
 def test_a_poor_jpeg_is_farther_from_the_picture_than_a_good_one() -> None:

@@ -23,6 +23,7 @@ from airhilt.world.site import ScenarioSite
 
 TICK_S = 0.05
 NIGHT = {"date": "2026-05-01", "solar_time_h": 23.0}
+TEXTURE = {"appearance": {"texture": 1.0}, "weather": {"cloud_cover": 0.5}}
 
 
 class Scene(NamedTuple):
@@ -63,6 +64,7 @@ SCENES = {
     "en_route": Scene("s02a_headon", ("nose-AAL123", "nose-DAL456"), 60.0),
     "night": Scene("s01b_nominal", ("runway_01",), 60.0, {"daylight": NIGHT}),
     "rain": Scene("s02a_headon", ("nose-AAL123",), 60.0, {"weather": {"rain_mm_h": 20.0}}),
+    "texture": Scene("s01b_nominal", ("runway_01", "delta_tower"), 60.0, TEXTURE),
 }
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.renderers import open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.sensors.cameras.scene.textures import SIDE, Places, factors
+from airhilt.sensors.cameras.scene.textures import SIDE, Places, factors, tiles
 from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Mesh
 from breadth import examples
@@ -46,11 +46,12 @@ def test_a_surface_varies_about_its_colour_and_keeps_it(material: Material) -> N
     assert full.mean() == pytest.approx(flat.mean(), rel=0.06)
 
 
-def test_a_texture_is_the_same_in_every_renderer_that_is_opened() -> None:
-    light = replace(CLEAR, texture=1.0, clouds=0.5)
-    for view in (OVER_GROUND, INTO_THE_SKY):
-        once, again = (picture(Material.GRASS, light, view) for _ in range(2))
-        assert np.array_equal(once, again)
+def test_a_texture_is_the_same_in_every_process() -> None:
+    tables = [tile.table for tile in tiles()]
+    tiles.cache_clear()
+    again = [tile.table for tile in tiles()]
+    pairs = zip(tables, again, strict=True)
+    assert all(one is not two and np.array_equal(one, two) for one, two in pairs)
 
 
 @examples(60)
