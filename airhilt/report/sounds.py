@@ -9,6 +9,7 @@ import wave
 import numpy as np
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
+from airhilt.audio.spectrum import fast_size
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Transmission
 from airhilt.record.audio import audio_file, recorded_pcm
@@ -78,15 +79,9 @@ def _small_wav(audio: Audio) -> bytes:
 
 
 def _slower(audio: Audio) -> Audio:
-    """Return audio at `RATE_HZ`, by the part of its spectrum that this rate has.
-
-    `scipy.signal` would do it too, but takes several times as long to import.
-    """
-    # Not at the top: most reports have no sound.
-    from scipy.fft import irfft, next_fast_len, rfft
-
+    """Return audio at `RATE_HZ`, by the part of its spectrum that this rate has."""
     step = SAMPLE_RATE_HZ // RATE_HZ
     samples = -(-len(audio) // step)
-    size = next_fast_len(samples, real=True)
-    spectrum = rfft(audio, size * step)[: size // 2 + 1]
-    return np.asarray(irfft(spectrum, size)[:samples] / step, np.float32)
+    size = fast_size(samples)
+    spectrum = np.fft.rfft(audio, size * step)[: size // 2 + 1]
+    return np.asarray(np.fft.irfft(spectrum, size)[:samples] / step, np.float32)

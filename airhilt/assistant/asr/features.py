@@ -9,9 +9,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import rfft
-from scipy.ndimage import binary_dilation, binary_opening, uniform_filter1d
-from scipy.sparse import csr_array
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 
@@ -54,8 +51,9 @@ def filters() -> NDArray[np.float32]:
 
 
 _WINDOW = np.hanning(WINDOW).astype(np.float32)
-_FILTERS = csr_array(filters())
-"""Mel filters as a sparse matrix, whose product stays on one core; NumPy's would use all."""
+_FILTERS = filters()
+_REACHES = [slice(int(bins[0]), int(bins[-1]) + 1) for bins in map(np.flatnonzero, _FILTERS)]
+"""Bins of the spectrum that each filter takes."""
 WHITE = np.asarray(_FILTERS.sum(axis=1) / _FILTERS.sum(axis=1).mean(), np.float32)
 """Power of white noise in each band, 1 in the mean."""
 
@@ -68,8 +66,11 @@ def mel_power(audio: Audio) -> NDArray[np.float32]:
     power = np.empty((count, BINS), np.float32)
     for begin in range(0, count, BLOCK_FRAMES):
         block = slice(begin, begin + BLOCK_FRAMES)
-        spectrum = rfft(frames[block] * _WINDOW, _SIZE, axis=1)
-        power[block] = (_FILTERS @ (spectrum.real**2 + spectrum.imag**2).T).T
+        spectrum = np.fft.rfft(frames[block] * _WINDOW, _SIZE, axis=1)
+        energy = spectrum.real**2 + spectrum.imag**2
+        for band, (weights, reach) in enumerate(zip(_FILTERS, _REACHES, strict=True)):
+            # A product of matrices would take all cores.
+            power[block, band] = np.einsum("fb,b->f", energy[:, reach], weights[reach])
     return power
 
 
@@ -84,16 +85,19 @@ def is_near_speech(power: NDArray[np.float32]) -> NDArray[np.bool_]:
     A frame is loud above the middle, in dB, between what half a second exceeds and the level of the
     quietest tenth.
     """
-    levels_db = 10.0 * np.log10(uniform_filter1d(power.mean(axis=1), 5) + FLOOR)
+    mean = np.convolve(np.pad(power.mean(axis=1), 2, "symmetric"), np.full(5, 0.2), "valid")
+    levels_db = 10.0 * np.log10(mean + FLOOR)
     loud_db = float(np.sort(levels_db)[-LOUD_FRAMES:][0])
     quiet_db = float(np.percentile(levels_db, 10.0))
     if loud_db - quiet_db < LEAST_RANGE_DB:
         return np.ones(len(power), np.bool_)
     is_loud = levels_db >= (loud_db + quiet_db) / 2.0
-    is_speech = binary_opening(is_loud, np.ones(LONGEST_CLICK_FRAMES))
-    if not is_speech.any():
-        return np.ones(len(power), np.bool_)
-    return np.asarray(binary_dilation(is_speech, np.ones(2 * NEAR_FRAMES + 1)), np.bool_)
+    begins, ends = np.flatnonzero(np.diff(is_loud, prepend=False, append=False)).reshape(-1, 2).T
+    is_near = np.zeros(len(power), np.bool_)
+    for begin, end in zip(begins, ends, strict=True):
+        if end - begin >= LONGEST_CLICK_FRAMES:
+            is_near[max(begin - NEAR_FRAMES, 0) : end + NEAR_FRAMES] = True
+    return is_near if is_near.any() else np.ones(len(power), np.bool_)
 
 
 def normalised(power: NDArray[np.float32]) -> NDArray[np.float32]:

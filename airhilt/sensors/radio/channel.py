@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import irfft, next_fast_len, rfft
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
+from airhilt.audio.spectrum import fast_size
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import ChannelProfile
 from airhilt.sensors.radio.on_air import BackgroundNoise
@@ -223,12 +223,14 @@ def _level(speech: Audio) -> tuple[Audio, NDArray[np.bool_]]:
 
 def _band(samples: Audio, profile: ChannelProfile) -> Audio:
     """Return samples with the magnitude response of a Butterworth band-pass, without its delay."""
-    size = next_fast_len(len(samples) + _FRAME, real=True)
+    size = fast_size(len(samples) + _FRAME)
     frequency = np.maximum(np.fft.rfftfreq(size, 1.0 / SAMPLE_RATE_HZ), 1.0).astype(np.float32)
     steepness = 2 * profile.order
     response = 1.0 / np.sqrt(1.0 + (profile.low_hz / frequency) ** steepness)
     response /= np.sqrt(1.0 + (frequency / profile.high_hz) ** steepness)
-    return np.asarray(irfft(rfft(samples, size) * response, size)[: len(samples)], np.float32)
+    return np.asarray(
+        np.fft.irfft(np.fft.rfft(samples, size) * response, size)[: len(samples)], np.float32
+    )
 
 
 def _fading(count: int, profile: ChannelProfile, rng: np.random.Generator) -> Audio:
@@ -244,12 +246,13 @@ def _fading(count: int, profile: ChannelProfile, rng: np.random.Generator) -> Au
 
 def _surroundings(count: int, background: BackgroundNoise, rng: np.random.Generator) -> Audio:
     """Return the noise of a cockpit (rumble, airflow, hum) or of a tower, with power 1."""
-    size = next_fast_len(count, real=True)
+    size = fast_size(count)
     frequency = np.fft.rfftfreq(size, 1.0 / SAMPLE_RATE_HZ).astype(np.float32)
     corner = 400.0 if background == "cockpit" else 900.0
     shape = 1.0 / (1.0 + (frequency / corner) ** 2)
     shape[0] = 0.0
-    noise = irfft(rfft(rng.standard_normal(size, np.float32)) * shape, size)[:count]
+    white = rng.standard_normal(size, np.float32)
+    noise = np.fft.irfft(np.fft.rfft(white) * shape, size)[:count]
     if background == "cockpit":
         times_s = np.arange(count, dtype=np.float32) / SAMPLE_RATE_HZ
         hum = 400.0 + rng.uniform(-5.0, 5.0)
