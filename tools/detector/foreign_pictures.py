@@ -4,7 +4,7 @@
     python tools/detector/foreign_pictures.py --out data/foreign --images 300
     python tools/detector/eval_disturbed.py data/foreign
 
-Nothing of it is AIRHILT's: shapes are lofted here, Panda3D draws and lights them, ground and walls
+Nothing in the pictures is AIRHILT's: shapes are lofted here, Panda3D draws and lights them, ground and walls
 are photographs of surfaces (scikit-image). No detector may learn from it. Files are those that
 ``airhilt dataset export`` writes, so the same tools judge both. A third of the pictures is empty.
 """
@@ -27,6 +27,8 @@ from direct.showbase.ShowBase import ShowBase
 from panda3d import core
 from PIL import Image, ImageDraw, ImageFilter
 from rich.progress import track
+
+from airhilt.sensors.cameras.dataset.records import run_lengths
 
 COLUMNS, ROWS = 640, 360
 EMPTY = 1.0 / 3.0
@@ -558,12 +560,63 @@ def taken(levels: npt.NDArray[np.uint8], draws: Draws) -> Image.Image:
     return Image.fromarray(noisy.clip(0.0, 255.0).astype(np.uint8))
 
 
-def run_lengths(mask: npt.NDArray[np.bool_]) -> dict[str, Any]:
-    """Return a mask in COCO's uncompressed run lengths."""
-    flat = mask.T.ravel()
-    edges = np.flatnonzero(np.diff(flat.astype(np.int8))) + 1
-    counts = np.diff(np.concatenate(([0], edges, [flat.size]))).tolist()
-    return {"size": list(mask.shape), "counts": [0, *counts] if flat[0] else counts}
+def drawn(
+    studio: Studio, seed: int, index: int, folder: Path
+) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+    """Draw a picture into a folder, and return what COCO says of it and of its airplanes."""
+    base = studio.base
+    draws = np.random.default_rng((seed, index))
+    world = World(base, draws)
+    world.root.reparent_to(base.render)
+    base.camLens.set_film_size(COLUMNS, ROWS)
+    base.camLens.set_fov(math.degrees(world.field_rad))
+    base.camLens.set_near_far(2.0, 40_000.0)
+    planes = [] if draws.random() < EMPTY else placed(base, world, draws)
+    base.graphicsEngine.render_frame()
+    name = f"images/{index:05d}.png"
+    taken(studio.seen(base.win), draws).save(folder / name)
+    numbers = studio.numbers()
+    about = {
+        "id": index,
+        "file_name": name,
+        "width": COLUMNS,
+        "height": ROWS,
+        "visibility_m": world.visibility_m,
+        "camera_kind": "nose" if world.aloft else "fixed",
+        "sun_elevation_deg": math.degrees(world.sun_rad),
+    }
+    found = [
+        _annotation(studio, world, plane, range_m, numbers, index)
+        for plane, range_m in planes
+        if (numbers == int(plane.get_tag("number"))).any()
+    ]
+    world.root.remove_node()
+    return about, found
+
+
+def _annotation(
+    studio: Studio, world: World, plane: Any, range_m: float, numbers: Any, index: int
+) -> dict[str, Any]:
+    number = int(plane.get_tag("number"))
+    mask = numbers == number
+    others = [each for each in world.root.get_children() if each != plane]
+    for other in others:
+        other.hide()
+    studio.base.graphicsEngine.render_frame()
+    alone = studio.numbers() == number
+    for other in others:
+        other.show()
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    size = int(np.ptp(columns)) + 1, int(np.ptp(rows)) + 1
+    return {
+        "image_id": index,
+        "category_id": 0,
+        "bbox": [int(columns[0]), int(rows[0]), *size],
+        "range_m": range_m,
+        "visible_fraction": float(mask.sum() / alone.sum()),
+        "transmission": math.exp(-3.0 * range_m / world.visibility_m),
+        "segmentation": run_lengths(mask),
+    }
 
 
 def main() -> None:
@@ -575,51 +628,17 @@ def main() -> None:
     given = parser.parse_args()
     (given.out / "images").mkdir(parents=True, exist_ok=True)
     studio = Studio()
-    base = studio.base
     images: list[dict[str, Any]] = []
     annotations: list[dict[str, Any]] = []
     for index in track(range(given.images), "pictures", disable=not sys.stderr.isatty()):
-        draws = np.random.default_rng((given.seed, index))
-        world = World(base, draws)
-        world.root.reparent_to(base.render)
-        base.camLens.set_film_size(COLUMNS, ROWS)
-        base.camLens.set_fov(math.degrees(world.field_rad))
-        base.camLens.set_near_far(2.0, 40_000.0)
-        planes = [] if draws.random() < EMPTY else placed(base, world, draws)
-        base.graphicsEngine.render_frame()
-        picture = taken(studio.seen(base.win), draws)
-        numbers = studio.numbers()
-        name = f"images/{index:05d}.png"
-        picture.save(given.out / name)
-        images.append({
-            "id": index, "file_name": name, "width": COLUMNS, "height": ROWS,
-            "visibility_m": world.visibility_m, "camera_kind": "nose" if world.aloft else "fixed",
-            "sun_elevation_deg": math.degrees(world.sun_rad),
-        })  # fmt: skip
-        for plane, range_m in planes:
-            number = int(plane.get_tag("number"))
-            mask = numbers == number
-            for other in world.root.get_children():
-                if other != plane:
-                    other.hide()
-            base.graphicsEngine.render_frame()
-            alone = studio.numbers() == number
-            for other in world.root.get_children():
-                other.show()
-            if not mask.any():
-                continue
-            rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-            annotations.append({
-                "id": len(annotations), "image_id": index, "category_id": 0,
-                "bbox": [int(columns[0]), int(rows[0]), int(np.ptp(columns)) + 1,
-                         int(np.ptp(rows)) + 1],
-                "range_m": range_m, "visible_fraction": float(mask.sum() / alone.sum()),
-                "transmission": math.exp(-3.0 * range_m / world.visibility_m),
-                "segmentation": run_lengths(mask),
-            })  # fmt: skip
-        world.root.remove_node()
-    document = {"categories": [{"id": 0, "name": "airplane"}], "images": images,
-                "annotations": annotations}  # fmt: skip
+        about, found = drawn(studio, given.seed, index, given.out)
+        images.append(about)
+        annotations += [{"id": len(annotations) + place, **one} for place, one in enumerate(found)]
+    document = {
+        "categories": [{"id": 0, "name": "airplane"}],
+        "images": images,
+        "annotations": annotations,
+    }
     (given.out / "annotations.json").write_text(json.dumps(document), encoding="utf-8")
     print(f"{len(images)} pictures with {len(annotations)} airplanes in {given.out}")
 
