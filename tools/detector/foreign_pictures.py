@@ -4,7 +4,8 @@
     python tools/detector/foreign_pictures.py --out data/foreign --images 300
     python tools/detector/eval_disturbed.py data/foreign
 
-Nothing in the pictures is AIRHILT's: shapes are lofted here, Panda3D draws and lights them, ground and walls
+Nothing in the pictures is AIRHILT's: shapes are lofted here, Panda3D draws and lights them, ground
+and walls
 are photographs of surfaces (scikit-image). No detector may learn from it. Files are those that
 ``airhilt dataset export`` writes, so the same tools judge both. A third of the pictures is empty.
 """
