@@ -119,19 +119,21 @@ class Disturber:
         if draws.random() < 0.85:
             spread = min(abs(draws.normal(0.0, 0.075)) + 0.01, 0.22)
         rows, columns = levels.shape[:2]
-        field = self.field(rows, columns, draws)[..., None]
+        field: Floats = self.field(rows, columns, draws)[..., None]
         if draws.random() < 0.4:
             field = field * (1.0 + draws.normal(0.0, 0.25, 3)).astype(np.float32)
         where = draws.random()
         if where < 0.45:
             return levels * (1.0 + spread * field), spread
         soft = _soft(bodies)
+        beside: Floats = np.float32(1.0) - soft
         if where < 0.8:
-            return levels * (1.0 + spread * field * (1.0 - soft)), spread
+            return levels * (1.0 + spread * field * beside), spread
         if where < 0.9:
             return levels * (1.0 + spread * field * soft), 0.0
-        other = self.field(rows, columns, draws)[..., None] * draws.uniform(0.0, 1.0)
-        return levels * (1.0 + spread * (field * soft + other * (1.0 - soft))), spread
+        other = self.field(rows, columns, draws)[..., None] * np.float32(draws.uniform(0.0, 1.0))
+        both: Floats = field * soft + other * beside
+        return levels * (1.0 + spread * both), spread
 
     def _before_another(self, levels: Floats, bodies: Mask, draws: Draws) -> tuple[Floats, float]:
         """Return bodies before another background, if they stand out there."""
@@ -238,7 +240,7 @@ def _stripes(draws: Draws) -> Floats:
     way = across * math.cos(course) + down * math.sin(course)
     way = way + _value_noise(draws, 120.0, 120.0, Image.Resampling.BICUBIC) * draws.uniform(0, 12)
     waves = np.sin(2.0 * math.pi * way / period)
-    return (np.sign(waves) if draws.random() < 0.4 else waves).astype(np.float32)
+    return np.asarray(np.sign(waves) if draws.random() < 0.4 else waves, dtype=np.float32)
 
 
 # --- light, lens and sensor ---------------------------------------------------------------
@@ -310,7 +312,8 @@ def _noisy(levels: Floats, draws: Draws) -> tuple[Floats, float]:
     shape = levels.shape if of_colours else (*levels.shape[:2], 1)
     noise = draws.standard_normal(shape, dtype=np.float32)
     if draws.random() < 0.3:
-        noise = 0.5 * sum(np.roll(noise, by, (0, 1)) for by in ((0, 0), (0, 1), (1, 0), (1, 1)))
+        neighbours = [np.roll(noise, by, (0, 1)) for by in ((0, 1), (1, 0), (1, 1))]
+        noise = sum(neighbours, start=noise) * np.float32(0.5)
     if draws.random() < 0.3:
         deviations = spread * np.sqrt(levels / 128.0 + 0.05)
         return levels + noise * deviations, float(deviations.mean())

@@ -41,8 +41,8 @@ def begin_with(network: nn.Module, path: Path) -> dict[str, Tensor]:
     ]
     with torch.no_grad():
         for norm in _norms(network):
-            norm.running_mean.zero_()  # type: ignore[union-attr]
-            norm.running_var.fill_(1.0 - norm.eps)  # type: ignore[union-attr]
+            norm.running_mean.zero_()
+            norm.running_var.fill_(1.0 - norm.eps)
         if len(folded) > len(convolutions):
             (named["first"],) = folded.pop(0)
         for module, (weight, bias) in zip(convolutions, folded, strict=True):

@@ -74,7 +74,7 @@ def photograph(name: str, shape: tuple[int, int]) -> Floats:
     with Image.open(path) as image:
         grey = image.convert("L").resize((side, side), Image.Resampling.BICUBIC)
     levels = np.asarray(grey, dtype=float)[:rows, :columns]
-    return (levels - levels.mean()) / levels.std()
+    return np.asarray((levels - levels.mean()) / levels.std())
 
 
 def disturbances(shape: tuple[int, int]) -> dict[str, Disturbance]:

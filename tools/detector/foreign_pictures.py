@@ -16,7 +16,6 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -211,15 +210,15 @@ def airplane(design: Design, draws: Draws) -> Any:
     for side in (1.0, -1.0):
         up = side * math.cos(stance), math.sin(stance)
         add(panel(half, root, tip, behind, (x, 0.0, z), up), metal if design.length > 10 else body)
-        half_tail, *tail, tail_x, tail_z = design.tail
-        add(panel(half_tail, *tail, (tail_x, 0.0, tail_z), (side, 0.1), 0.09), metal)
+        span, near, far, swept, tail_x, tail_z = design.tail
+        add(panel(span, near, far, swept, (tail_x, 0.0, tail_z), (side, 0.1), 0.09), metal)
         for engine_x, engine_y, engine_z in design.engines:
             long, radius = design.nacelle
             along = np.linspace(0.0, 1.0, 7)
-            thick = radius * np.array([0.85, 1.0, 1.0, 0.97, 0.85, 0.7, 0.5])
+            girth = radius * np.array([0.85, 1.0, 1.0, 0.97, 0.85, 0.7, 0.5])
             sections = np.column_stack((engine_x + long * (0.5 - along),
                                         np.full(7, side * engine_y), np.full(7, engine_z),
-                                        thick, thick))  # fmt: skip
+                                        girth, girth))  # fmt: skip
             add(tube(sections, 12), accent if draws.random() < 0.3 else metal)
             if design.propeller:
                 _propeller(whole, (engine_x + long / 2, side * engine_y, engine_z), 3.4 * radius)
@@ -289,7 +288,7 @@ def livery(design: Design, body: Floats, accent: Floats, draws: Draws) -> Any:
     return texture(Image.fromarray(levels.clip(0, 255).astype(np.uint8)).rotate(180))
 
 
-def surface(name: str, colour: Sequence[float], depth: float) -> Any:
+def surface(name: str, colour: npt.ArrayLike, depth: float) -> Any:
     """Return a photograph of a surface in a colour; ``depth`` is how much it deviates."""
     with Image.open(Path(skimage.__file__).with_name("data") / f"{name}.png") as photograph:
         grey = np.asarray(photograph.convert("L").resize((512, 512)), dtype=float)
