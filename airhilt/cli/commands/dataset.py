@@ -127,10 +127,12 @@ def export(
         random_pictures,
         scenario_pictures,
     )
+    from airhilt.sensors.cameras.renderers import require_renderer
     from airhilt.world.loading import load
 
     size = _checked_size(width, height)
     _require_use(scenario, airports, formats, sequence)
+    renderer = require_renderer(renderer)
     settings: dict[str, Any] = {"seed": seed, "renderer": renderer, "size": size, "depth": depth}
     if scenario is not None:
         declared = load(scenario)

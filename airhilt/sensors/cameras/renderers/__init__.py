@@ -170,9 +170,10 @@ def require_renderer(name: str) -> str:
 
     Raises
     ------
-    RendererError
-        It cannot draw here.
+    AirhiltError
+        There is no renderer of that name, or it cannot draw here.
     """
+    require_known(name)
     triangle = Mesh.of(np.eye(3), (0, 1, 2), (0.5, 0.5, 0.5))
     light = Illumination(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0.0)
     taken, renderer = open_renderer(name, triangle, {}, light)
