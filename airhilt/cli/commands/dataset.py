@@ -130,9 +130,8 @@ def export(
     from airhilt.sensors.cameras.renderers import require_renderer
     from airhilt.world.loading import load
 
-    size = _checked_size(width, height)
     _require_use(scenario, airports, formats, sequence)
-    renderer = require_renderer(renderer)
+    size, renderer = _checked_size(width, height), require_renderer(renderer)
     settings: dict[str, Any] = {"seed": seed, "renderer": renderer, "size": size, "depth": depth}
     if scenario is not None:
         declared = load(scenario)
@@ -150,12 +149,11 @@ def export(
         left, console = max(images - first, 0), Console(stderr=True)
         yield from track(pictures, "pictures", total=left, console=console, transient=True)
 
-    balance = write(take, out, settings, formats, depth)
+    _show(out, write(take, out, settings, formats, depth).table())
+
+
+def _show(out: Path, rows: Sequence[Sequence[str]]) -> None:
     click.echo(out / "datasheet.md")
-    _show(balance.table())
-
-
-def _show(rows: Sequence[Sequence[str]]) -> None:
     for name, *counts in rows:
         click.echo(f"{name:12}" + "".join(f"{count:>8}" for count in counts))
 
