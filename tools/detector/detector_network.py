@@ -22,7 +22,7 @@ LIGHT = 64.0
 FAINT_LEVELS = 12.0
 """Differences from the surroundings above it count less and less."""
 ROUGH = 1.5
-"""How much the deviation around counts, beside those levels."""
+"""Weight of the deviation around, beside those levels."""
 PRIOR = 0.005
 """Score of everything before training."""
 

@@ -126,7 +126,7 @@ class Sight:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a detector makes of all pictures under a disturbance."""
+    """Result of a detector on all pictures under a disturbance."""
 
     sights: tuple[Sight, ...]
     false_in_empty: int

@@ -92,7 +92,7 @@ DESIGNS = (
 WHEELS = np.full(3, 0.15)
 NUMBER_LEVELS = 60
 NAMING = core.BitMask32.bit(1)
-"""What the camera sees that names airplanes: all but propellers."""
+"""Mask of the camera that names airplanes: it sees all but propellers."""
 
 
 def mesh(places: Floats, triangles: Any, shades: Floats, uvs: Floats | None = None) -> Any:
