@@ -13,6 +13,8 @@ from airhilt.imaging.view import Intrinsics
 from airhilt.scenario.models import Imaging
 from airhilt.sim.streams import stream
 
+IDEAL = Imaging(vignetting=0.0, blur_px=0.0, fixed_pattern=0.0)
+"""Lens, sensor and coder that change nothing."""
 ONE = 256
 """Fixed-point 1 of the weights of the blur."""
 FULL_GAIN = 4096
@@ -25,6 +27,7 @@ SPARE_PX = 64
 """Pixels by which the pattern of the noise is larger than a picture, to be moved about."""
 
 Pixels = npt.NDArray[np.uint8]
+Levels = npt.NDArray[np.uint16]
 
 
 class ImageSensor:
@@ -48,6 +51,9 @@ class ImageSensor:
         light = light[..., None] * (1.0 + imaging.fixed_pattern * pattern)
         gains = np.round(FULL_GAIN * np.maximum(light, 0.0) ** ENCODED)
         self._name, self._gains = name, gains.astype(np.uint32)
+        # Kept from picture to picture: getting memory takes longer than computing.
+        self._levels, self._spare = np.empty((2, *gains.shape), np.uint16)
+        self._pixels = np.empty(gains.shape, np.uint32)
         if imaging.noise_levels > 0.0:
             size = shape[0] + SPARE_PX, shape[1] + SPARE_PX, 3
             grain = draws.standard_normal(size, np.float32)
@@ -55,12 +61,14 @@ class ImageSensor:
 
     def expose(self, light: Pixels, number: int) -> Pixels:
         """Return the picture of some light, given in 8-bit sRGB; noise differs by its number."""
-        seen = light.astype(np.uint16)
+        levels, pixels = self._levels, self._pixels
+        levels[...] = light
         passes = math.ceil((self._imaging.blur_px / MOST_BLUR_PX) ** 2)
         for _ in range(passes):
             side = round(ONE * self._imaging.blur_px**2 / passes / 2.0)
-            seen = _blurred(_blurred(seen, side, 1), side, 0)
-        pixels = seen * self._gains
+            _blur(levels, self._spare, side, 1)
+            _blur(levels, self._spare, side, 0)
+        np.multiply(levels, self._gains, out=pixels)
         pixels += FULL_GAIN // 2
         pixels //= FULL_GAIN
         np.minimum(pixels, 255, out=pixels)
@@ -80,13 +88,14 @@ class ImageSensor:
         return np.array(Image.open(coded))
 
 
-def _blurred(levels: npt.NDArray[np.uint16], side: int, axis: int) -> npt.NDArray[np.uint16]:
-    """Return levels with ``side`` parts in `ONE` of each neighbour along an axis."""
-    rows = np.moveaxis(levels, axis, 0)
-    ahead = np.concatenate((rows[:1], rows[:-1]))
-    behind = np.concatenate((rows[1:], rows[-1:]))
-    spread = rows * np.uint16(ONE - 2 * side)
-    spread += (ahead + behind) * np.uint16(side)
-    spread += ONE // 2
-    spread //= ONE
-    return np.moveaxis(spread, 0, axis)
+def _blur(levels: Levels, spare: Levels, side: int, axis: int) -> None:
+    """Give each level ``side`` parts in `ONE` of each neighbour along an axis."""
+    np.multiply(levels, np.uint16(side), out=spare)
+    levels *= np.uint16(ONE - 2 * side)
+    sums, shares = np.moveaxis(levels, axis, 0), np.moveaxis(spare, axis, 0)
+    sums[1:] += shares[:-1]
+    sums[:-1] += shares[1:]
+    sums[0] += shares[0]
+    sums[-1] += shares[-1]
+    levels += np.uint16(ONE // 2)
+    levels //= np.uint16(ONE)

@@ -16,11 +16,10 @@ import numpy.typing as npt
 
 from airhilt.imaging.masks import Mask, grown
 from airhilt.imaging.view import Pose, View
-from airhilt.scenario.models import Imaging
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame, Prospect
-from airhilt.sensors.cameras.image_sensor import ImageSensor
+from airhilt.sensors.cameras.image_sensor import IDEAL, ImageSensor
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
@@ -38,7 +37,6 @@ from airhilt.shapes.mesh import Floats
 OWN_SAMPLES = 2
 OWN_MARGIN_PX = 2
 """Margin of the mask of the own aircraft, in pixels."""
-IDEAL = Imaging()
 AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
 TURN_STEPS = 24
 """Steps a radian: a picture of the own aircraft is kept until the light has turned by one."""

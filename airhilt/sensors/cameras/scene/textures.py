@@ -36,6 +36,11 @@ DECK_M = 8000.0
 """Height of the deck of thin clouds, in m."""
 DECK_VARIES = 0.1
 """Deviation of the deck's thickness."""
+DECK_SLOPE = 11.0 / 3.0
+"""Power of the frequency by which the power of what is seen of the deck falls.
+
+In a plane 8/3 by turbulence, and about one more at sizes under 200 to 500 m, where light spreads
+sideways (A. Davis et al., J. Atmos. Sci. 54, 1997). With less, specks stand alone in the sky."""
 DECK_OPAQUE = 0.45
 """Share of the sky that a deviation more hides."""
 DECK_MOST = 0.75
@@ -232,7 +237,7 @@ COARSE = Grain(
         Material.FOLIAGE: _of_noise(0.06, 1.5),
         Material.WATER: _of_noise(0.03, 2.0),
         Material.CLOUD: _of_noise(0.05, 2.0),
-        Material.DECK: _of_noise(DECK_VARIES, 2.5),
+        Material.DECK: _of_noise(DECK_VARIES, DECK_SLOPE),
     },
 )
 """16 km: soils and winds."""
