@@ -23,6 +23,17 @@ FLAP_RAD = math.radians(38.0)
 """Greatest angle of a beating wing."""
 WING_BEATS = 4
 """Positions of a wing in one beat."""
+WING = (
+    (0.0, 0.9, 1.0),
+    (0.2, 1.0, 1.15),
+    (0.45, 1.05, 1.0),
+    (0.7, 0.85, 0.75),
+    (0.9, 0.55, 0.6),
+    (1.0, 0.15, 0.5),
+)
+"""Of a wing from its root out: part of the half span, of the chord, and of the angle of a beat."""
+TWIST = 0.25
+"""How much lower the rear of a wing is, as a part of its chord."""
 
 
 def deer(size: Size) -> Mesh:
@@ -147,6 +158,7 @@ def _bird(size: Size, back: Colour, neck: Colour, beat: int | None, sides: int) 
         body,
         tube((0.0, 0.18 * length, up + 0.3 * girth), head, (0.5 * girth, 0.3 * girth), neck, 7),
         ellipsoid(neck, 0.35 * girth, 0.07 * length, 0.35 * girth, 7, 5).moved(*head),
+        _tail(0.9 * girth, 0.5 * length, back).moved(up_m=up),
     ]
     if beat is None:
         parts += [
@@ -167,19 +179,34 @@ def _small_bird(span_m: float, beat: int | None) -> Mesh:
     return join([body, wing, wing.mirrored()])
 
 
+def _tail(half_m: float, back_m: float, colour: Colour) -> Mesh:
+    """Return the feathers of a tail, spread to its end."""
+    root, thick = 0.55 * back_m, 0.08 * half_m
+    return loft(
+        [
+            [(-wide, -at, -thick), (wide, -at, -thick), (wide, -at, thick), (-wide, -at, thick)]
+            for at, wide in ((root, 0.5 * half_m), (back_m, half_m))
+        ],
+        colour,
+        closed=True,
+    )
+
+
 def _wing(half_span_m: float, chord_m: float, beat: int, colour: Colour) -> Mesh:
-    """Return the right wing, thin and bent in the middle."""
+    """Return the right wing: thin, bent at the wrist, and turned up in front as it beats."""
     angle = FLAP_RAD * math.sin(math.tau * beat / WING_BEATS + 0.4)
     rings = []
-    for out, chord in ((0.0, 1.0), (0.5, 0.95), (1.0, 0.25)):
-        bent = angle * (1.0 if out <= 0.5 else 0.7)
-        x, z = half_span_m * out * math.cos(bent), half_span_m * out * math.sin(bent)
-        back = 0.2 * chord_m * max(0.0, out - 0.5)
-        thick = 0.05 * chord_m
+    x = z = last = 0.0
+    for out, chord, bend in WING:
+        x += half_span_m * (out - last) * math.cos(bend * angle)
+        z += half_span_m * (out - last) * math.sin(bend * angle)
+        last = out
+        back, thick, deep = chord * chord_m, 0.05 * chord_m, TWIST * chord * chord_m
+        ahead = -0.15 * chord_m * max(0.0, out - 0.4)
         rings.append([
-            (x, -back - chord * chord_m, z),
-            (x, -back - 0.4 * chord * chord_m, z + thick),
-            (x, -back, z),
-            (x, -back - 0.4 * chord * chord_m, z - thick),
+            (x, ahead - back, z - deep),
+            (x, ahead - 0.4 * back, z + thick),
+            (x, ahead, z),
+            (x, ahead - 0.4 * back, z - thick - 0.3 * deep),
         ])  # fmt: skip
     return loft(rings, colour, closed=True)

@@ -2,33 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from airhilt.shapes.aircraft import aircraft_meshes
 from airhilt.shapes.aircraft.spec import AircraftShape
 from airhilt.shapes.colours import (
     AMBER,
     BLACK,
+    DARK,
     GLASS,
     GREY,
     LIME,
     ORANGE,
     RED,
+    SILVER,
     TYRE,
     WHITE,
     YELLOW,
 )
-from airhilt.shapes.mesh import Colour, Mesh, box, join, tube, wheel
+from airhilt.shapes.mesh import Colour, Mesh, box, join, loft, tube, wheel
 from airhilt.shapes.sizes import Size
+
+PANE_M = 0.02
+"""How far panes, lamps and grilles stand out."""
+PICK_UP = (0.5, 0.24), (0.5, 0.5), (0.46, 0.56), (0.2, 0.62), (-0.5, 0.62), (-0.5, 0.24)
+"""Side of a pick-up below its windows: places ahead of the middle and up, as parts of its size."""
+CABIN = (0.2, 0.62), (0.1, 0.95), (-0.1, 0.95), (-0.15, 0.62)
+WINDSCREEN = (0.205, 0.645), (0.118, 0.93), (0.108, 0.93), (0.19, 0.645)
+REAR_WINDOW = (-0.154, 0.66), (-0.111, 0.92), (-0.102, 0.92), (-0.14, 0.66)
+SIDE_WINDOWS = (
+    ((0.165, 0.66), (0.09, 0.9), (0.015, 0.9), (0.015, 0.66)),
+    ((-0.01, 0.66), (-0.01, 0.9), (-0.085, 0.9), (-0.12, 0.66)),
+)
 
 
 def follow_me(size: Size) -> Mesh:
     """Return a pick-up with a chequered board and a light bar."""
     width, length, height = size.span_m, size.length_m, size.height_m
-    body = box(YELLOW, width, length, 0.42 * height).moved(up_m=0.22 * height)
-    cabin = box(GLASS, 0.92 * width, 0.36 * length, 0.28 * height, 0.86)
-    roof = box(YELLOW, 0.8 * width, 0.31 * length, 0.04 * height)
-    bar = box(AMBER, 0.7 * width, 0.06 * length, 0.05 * height)
+
+    def side_to_side(
+        colour: Colour, side: Sequence[tuple[float, float]], low: float = 1.0, high: float = 1.0
+    ) -> Mesh:
+        return _side_to_side(
+            colour,
+            [(along * length, up * height) for along, up in side],
+            low * width + PANE_M * (colour == GLASS),
+            high * width + PANE_M * (colour == GLASS),
+        )
+
     squares = [
         box(YELLOW if (column + row) % 2 else BLACK, 0.225 * width, 0.1, 0.18 * height).moved(
             (column - 1.5) * 0.225 * width, -0.4 * length, (0.62 + 0.18 * row) * height
@@ -37,10 +58,14 @@ def follow_me(size: Size) -> Mesh:
         for row in range(2)
     ]
     return join([
-        body,
-        cabin.moved(ahead_m=0.06 * length, up_m=0.62 * height),
-        roof.moved(ahead_m=0.06 * length, up_m=0.9 * height),
-        bar.moved(ahead_m=0.06 * length, up_m=0.95 * height),
+        side_to_side(YELLOW, PICK_UP),
+        side_to_side(YELLOW, CABIN, 0.96, 0.8),
+        side_to_side(GLASS, WINDSCREEN, 0.86, 0.7),
+        side_to_side(GLASS, REAR_WINDOW, 0.8, 0.7),
+        *(side_to_side(GLASS, window, 0.945, 0.82) for window in SIDE_WINDOWS),
+        box(DARK, 0.86 * width, 0.3 * length, PANE_M).moved(0, -0.33 * length, 0.62 * height),
+        box(AMBER, 0.7 * width, 0.06 * length, 0.05 * height).moved(up_m=0.95 * height),
+        *_ends(width, length, 0.22 * height, 0.3 * height),
         *squares,
         *_wheels((-0.32, 0.32), width, length, 0.2 * height),
     ])  # fmt: skip
@@ -54,16 +79,21 @@ def fire_truck(size: Size) -> Mesh:
         box(RED, width, 0.74 * length, 0.28 * height),
         box(LIME, width, 0.74 * length, 0.46 * height).moved(up_m=0.28 * height),
         box(WHITE, 1.01 * width, 0.742 * length, 0.05 * height).moved(up_m=0.28 * height),
+        *(
+            box(SILVER, 1.012 * width, 0.13 * length, 0.3 * height).moved(
+                0, at * length, 0.38 * height)
+            for at in (-0.27, -0.1, 0.07)
+        ),
+        box(GREY, 0.5 * width, 0.744 * length, 0.3 * height).moved(up_m=0.38 * height),
     ])  # fmt: skip
-    front = box(RED, width, 0.24 * length, 0.34 * height)
-    glass = box(GLASS, 0.97 * width, 0.23 * length, 0.38 * height, 0.88)
+    cab = _cab(RED, width, 0.24 * length, 0.72 * height, 0.42)
     return join([
         hull.moved(ahead_m=-0.12 * length, up_m=low),
-        front.moved(ahead_m=0.37 * length, up_m=low),
-        glass.moved(ahead_m=0.37 * length, up_m=low + 0.34 * height),
+        cab.moved(ahead_m=0.37 * length, up_m=low),
         box(LIME, 0.9 * width, 0.2 * length, 0.05 * height).moved(0, 0.37 * length, 0.9 * height),
         box(GREY, 0.4 * width, 0.1 * length, 0.09 * height).moved(0, 0.2 * length, 0.91 * height),
         tube((0, 0.2 * length, 0.97 * height), (0, 0.36 * length, 0.99 * height), (0.1, 0.07), RED),
+        *_ends(width, length, low, 0.18 * height),
         *_wheels((-0.36, -0.24, 0.2, 0.32), width, length, 0.2 * height),
     ])  # fmt: skip
 
@@ -73,10 +103,15 @@ def snow_plough(size: Size) -> Mesh:
     width, length, height = size.span_m, size.length_m, size.height_m
     cab = 0.36 * width
     return join([
-        box(ORANGE, cab, 0.12 * length, 0.42 * height).moved(0, 0.3 * length, 0.25 * height),
-        box(GLASS, 0.95 * cab, 0.1 * length, 0.28 * height, 0.9).moved(
-            0, 0.31 * length, 0.67 * height),
-        box(ORANGE, cab, 0.24 * length, 0.55 * height).moved(0, 0.11 * length, 0.25 * height),
+        box(DARK, 0.4 * cab, 0.8 * length, 0.08 * height).moved(0, -0.05 * length, 0.2 * height),
+        _cab(ORANGE, cab, 0.13 * length, 0.7 * height, 0.5).moved(
+            0, 0.3 * length, 0.25 * height),
+        box(ORANGE, cab, 0.22 * length, 0.55 * height).moved(0, 0.1 * length, 0.25 * height),
+        *(
+            box(DARK, 1.02 * cab, 0.008 * length, 0.5 * height).moved(
+                0, at * length, 0.27 * height)
+            for at in (0.03, 0.1, 0.17, -0.38, -0.28, -0.18)
+        ),
         box(AMBER, 0.6 * cab, 0.02 * length, 0.05 * height).moved(0, 0.31 * length, 0.95 * height),
         box(YELLOW, width, 0.05 * length, 0.32 * height, 0.96).moved(0, 0.47 * length, 0.02),
         box(ORANGE, cab, 0.34 * length, 0.5 * height).moved(0, -0.28 * length, 0.25 * height),
@@ -97,8 +132,9 @@ def tug_with_aircraft(size: Size, aircraft: AircraftShape) -> Mesh:
     return join([
         towed.moved(ahead_m=aft),
         box(YELLOW, 2.8, 5.0, 1.0).moved(0, nose - 2.5, 0.5),
-        box(GLASS, 2.2, 1.6, 0.9, 0.9).moved(0, nose - 1.4, 1.5),
+        _cab(YELLOW, 2.2, 1.6, 1.0, 0.1).moved(0, nose - 1.4, 1.5),
         tube((0, nose - 5.0, 0.7), (0, nose - 11.0, 0.7), (0.1, 0.1), RED),
+        *[part.moved(0, nose - 2.5, 0) for part in _ends(2.8, 5.0, 0.5, 0.8)],
         *[part.moved(0, nose - 2.5, 0) for part in _wheels((-0.32, 0.32), 2.8, 5.0, 0.55)],
     ])  # fmt: skip
 
@@ -107,16 +143,59 @@ def van(size: Size, colour: Colour = WHITE) -> Mesh:
     """Return a van of some size, for kinds of vehicles that have no mesh of their own."""
     width, length, height = size.span_m, size.length_m, size.height_m
     return join([
-        box(colour, width, length, 0.8 * height, 0.94).moved(up_m=0.2 * height),
-        box(GLASS, 0.97 * width, 0.12 * length, 0.3 * height).moved(
-            0, 0.435 * length, 0.55 * height),
+        box(colour, width, 0.74 * length, 0.8 * height, 0.96).moved(
+            0, -0.13 * length, 0.2 * height),
+        _cab(colour, width, 0.26 * length, 0.72 * height, 0.5).moved(
+            0, 0.37 * length, 0.2 * height),
+        *_ends(width, length, 0.2 * height, 0.25 * height),
         *_wheels((-0.3, 0.3), width, length, 0.2 * height),
     ])  # fmt: skip
+
+
+def _side_to_side(
+    colour: Colour, side: Sequence[tuple[float, float]], low_m: float, high_m: float
+) -> Mesh:
+    """Return a body as its side is, ahead and up, of one width at its foot and one at its top."""
+    foot, top = min(up for _, up in side), max(up for _, up in side)
+    halves = [
+        0.5 * (low_m + (high_m - low_m) * (up - foot) / max(top - foot, 1e-6)) for _, up in side
+    ]
+    rings = [
+        [(way * half, along, up) for half, (along, up) in zip(halves, side, strict=True)]
+        for way in (-1.0, 1.0)
+    ]
+    return loft(rings, colour, closed=True)
+
+
+def _cab(colour: Colour, width: float, length: float, height: float, sill: float) -> Mesh:
+    """Return a driver's cab with panes in front and beside from a part of its height on."""
+    pane, up = 0.8 * (1.0 - sill) * height, (sill + 0.06) * height
+    mirror = box(DARK, 0.12, 0.12, 0.8 * pane)
+    return join([
+        box(colour, width, length, height, 0.97),
+        box(GLASS, 0.86 * width, length + PANE_M, pane, 0.98).moved(0, 0.01 * length, up),
+        box(GLASS, width + PANE_M, 0.55 * length, pane, 0.98).moved(0, 0.14 * length, up),
+        *(mirror.moved(way * (0.5 * width + 0.1), 0.5 * length, up) for way in (-1.0, 1.0)),
+    ])  # fmt: skip
+
+
+def _ends(width: float, length: float, low: float, tall: float) -> Iterator[Mesh]:
+    """Yield bumpers, a grille, and lamps in front and behind, above a height."""
+    yield box(DARK, width + PANE_M, length + 4.0 * PANE_M, 0.35 * tall).moved(up_m=low)
+    yield box(DARK, 0.5 * width, PANE_M, 0.5 * tall).moved(0, 0.5 * length, low + 0.45 * tall)
+    for way in (-1.0, 1.0):
+        lamp = way * 0.38 * width
+        yield box(WHITE, 0.16 * width, PANE_M, 0.35 * tall).moved(
+            lamp, 0.5 * length, low + 0.5 * tall
+        )
+        yield box(RED, 0.12 * width, PANE_M, 0.4 * tall).moved(
+            lamp, -0.5 * length, low + 0.5 * tall
+        )
 
 
 def _wheels(along: tuple[float, ...], width: float, length: float, radius: float) -> Iterator[Mesh]:
     for part in along:
         for side in (-1.0, 1.0):
-            yield wheel(TYRE, radius, 0.25 * radius + 0.12).moved(
-                side * (0.5 * width - 0.1), part * length, radius
-            )
+            at = side * (0.5 * width - 0.1), part * length, radius
+            yield wheel(TYRE, radius, 0.25 * radius + 0.12).moved(*at)
+            yield wheel(SILVER, 0.55 * radius, 0.25 * radius + 0.14).moved(*at)

@@ -16,9 +16,11 @@ from hypothesis import strategies as st
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.renderers import open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.sensors.cameras.scene.landscape import airport_landscape
 from airhilt.sensors.cameras.scene.textures import SIDE, Places, factors, tiles
 from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Mesh
+from airhilt.world.surface.layout import load_layout
 from breadth import examples
 
 CLEAR = Illumination(np.array((0.3, 0.2, 0.93)), visibility_m=60_000.0, overcast=0.0)
@@ -105,3 +107,12 @@ def test_more_cover_hides_more_of_the_blue_and_none_hides_nothing() -> None:
         picture(Material.GRASS, replace(overcast, clouds=0.9), INTO_THE_SKY),
         picture(Material.GRASS, overcast, INTO_THE_SKY),
     )
+
+
+def test_rain_makes_pavements_darker_and_nothing_else() -> None:
+    layout = load_layout("KDCA")
+    dry, wet = (airport_landscape(layout, replace(CLEAR, wet=each)).mesh for each in (False, True))
+    paved = np.isin(dry.material, (Material.ASPHALT, Material.CONCRETE))
+    assert 0 < paved.sum() < len(dry)
+    assert np.allclose(wet.colours[paved], 0.6 * dry.colours[paved])
+    assert np.array_equal(wet.colours[~paved], dry.colours[~paved])

@@ -110,7 +110,7 @@ class Casting:
             place: None if place == EN_ROUTE else load_layout(place) for place in places
         }
         self._models = {kind: make(kind) for make, group in KINDS for kind, *_ in group}
-        self._in_shade: dict[tuple[str, bool], Landscape] = {}
+        self._in_shade: dict[tuple[str, bool, bool], Landscape] = {}
         self._painted = {
             (kind, livery): aircraft_model(kind, livery=livery)
             for kind, *_ in AIRCRAFT
@@ -164,7 +164,7 @@ class Casting:
         """Return an airport; without shadows and clouds it is the same in all lights."""
         if casts_shadows(light) or light.shows_deck:
             return airport_landscape(layout, light)
-        key = layout.airport.icao, light.texture > 0.0
+        key = layout.airport.icao, light.texture > 0.0, light.wet
         if key not in self._in_shade:
             self._in_shade[key] = airport_landscape(layout, light)
         return self._in_shade[key]

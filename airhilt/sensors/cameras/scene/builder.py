@@ -46,7 +46,14 @@ def air_and_sun(
     overcast = 1.0 if weather.rain_mm_h > 0.0 else min(max(thick, 0.0), 1.0)
     sun = sun_direction(latitude_rad, daylight.date, daylight.solar_time_h)
     background = BACKGROUND_EN_ROUTE if en_route else 1.0
-    return Illumination(sun, visibility, overcast, background, clouds=weather.cloud_cover)
+    return Illumination(
+        sun,
+        visibility,
+        overcast,
+        background,
+        clouds=weather.cloud_cover,
+        wet=weather.rain_mm_h > 0.0,
+    )
 
 
 def landscape_of(

@@ -68,6 +68,8 @@ class Illumination:
         Share of the variation of surfaces about their colours.
     clouds
         Share of the sky that thin clouds hide.
+    wet
+        True if rain has wetted the ground.
     """
 
     sun: npt.NDArray[np.float64]
@@ -76,12 +78,13 @@ class Illumination:
     background: float = 1.0
     texture: float = 0.0
     clouds: float = 0.0
+    wet: bool = False
 
     @property
     def key(self) -> list[float]:
         """Numbers that determine everything else."""
         air = self.visibility_m, self.overcast, self.background
-        return [*self.sun.tolist(), *air, self.texture, self.clouds]
+        return [*self.sun.tolist(), *air, self.texture, self.clouds, float(self.wet)]
 
     @property
     def sun_elevation_rad(self) -> float:

@@ -57,6 +57,8 @@ DEEPEST_CLOUDS_M = 1_400.0
 """Greatest height of clouds from their bases to the tops, in m: fair-weather clouds are low."""
 SHADOW_REACH = 6.0
 """Greatest length of a shadow for its height: the sun is lower only for minutes."""
+WET = np.float32(0.6)
+"""Light of wet pavement for that of dry (J. Lekner, M. Dorf, Applied Optics 27, 1988)."""
 FLOODLIGHT = 0.06
 """Light of floodlights on an apron at night, against that of a white surface in the sun."""
 CLEARANCE_M = 0.2
@@ -128,7 +130,7 @@ def airport_landscape(layout: Layout, light: Illumination, is_kept: bool = False
     )
     away = _shadow_reach(light)
 
-    detail = Detail(light.shows_deck, light.texture > 0.0)
+    detail = Detail(light.shows_deck, light.texture > 0.0, light.wet)
 
     def make() -> Mesh:
         return _Airport(layout, blocks, away, detail).mesh()
@@ -164,10 +166,13 @@ class Detail(NamedTuple):
         True for fair-weather clouds about it.
     wear
         True for what use leaves and needs: rubber on runways, lines about stands, floodlights.
+    wet
+        True for pavements that rain has made darker.
     """
 
     clouds: bool
     wear: bool
+    wet: bool
 
 
 class _Airport:
@@ -211,7 +216,11 @@ class _Airport:
         self._inside = reach.buffer(160.0, ARC).buffer(-160.0, ARC)
 
     def mesh(self) -> Mesh:
-        parts = [sheet(self._layers(), self._shadows(), self._seed), _base()]
+        ground = sheet(self._layers(), self._shadows(), self._seed)
+        if self._detail.wet:
+            paved = np.isin(ground.material, (Material.ASPHALT, Material.CONCRETE))
+            ground = replace(ground, colours=ground.colours * np.where(paved, WET, 1.0)[:, None])
+        parts = [ground, _base()]
         for block in self._blocks:
             shape = scenery.tower if block.name == "Tower" else scenery.building
             parts.append(shape(block.outline, block.height_m))
