@@ -31,7 +31,7 @@ WING = (
     (0.9, 0.55, 0.6),
     (1.0, 0.15, 0.5),
 )
-"""Of a wing from its root out: part of the half span, of the chord, and of the angle of a beat."""
+"""Parts of the half span, of the chord and of the angle of a beat, from the root of a wing out."""
 TWIST = 0.25
 """How much lower the rear of a wing is, as a part of its chord."""
 
