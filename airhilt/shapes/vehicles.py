@@ -25,31 +25,28 @@ from airhilt.shapes.sizes import Size
 
 PANE_M = 0.02
 """How far panes, lamps and grilles stand out."""
-PICK_UP = (0.5, 0.24), (0.5, 0.5), (0.46, 0.56), (0.2, 0.62), (-0.5, 0.62), (-0.5, 0.24)
-"""Side of a pick-up below its windows: places ahead of the middle and up, as parts of its size."""
-CABIN = (0.2, 0.62), (0.1, 0.95), (-0.1, 0.95), (-0.15, 0.62)
-WINDSCREEN = (0.205, 0.645), (0.118, 0.93), (0.108, 0.93), (0.19, 0.645)
-REAR_WINDOW = (-0.154, 0.66), (-0.111, 0.92), (-0.102, 0.92), (-0.14, 0.66)
-SIDE_WINDOWS = (
-    ((0.165, 0.66), (0.09, 0.9), (0.015, 0.9), (0.015, 0.66)),
-    ((-0.01, 0.66), (-0.01, 0.9), (-0.085, 0.9), (-0.12, 0.66)),
+PICK_UP: tuple[tuple[Colour, Sequence[tuple[float, float]], float, float], ...] = (
+    (
+        YELLOW,
+        ((0.5, 0.24), (0.5, 0.5), (0.46, 0.56), (0.2, 0.62), (-0.5, 0.62), (-0.5, 0.24)),
+        1,
+        1,
+    ),
+    (YELLOW, ((0.2, 0.62), (0.1, 0.95), (-0.1, 0.95), (-0.15, 0.62)), 0.96, 0.8),
+    (GLASS, ((0.205, 0.645), (0.118, 0.93), (0.108, 0.93), (0.19, 0.645)), 0.86, 0.7),
+    (GLASS, ((-0.154, 0.66), (-0.111, 0.92), (-0.102, 0.92), (-0.14, 0.66)), 0.8, 0.7),
+    (GLASS, ((0.165, 0.66), (0.09, 0.9), (0.015, 0.9), (0.015, 0.66)), 0.955, 0.835),
+    (GLASS, ((-0.01, 0.66), (-0.01, 0.9), (-0.085, 0.9), (-0.12, 0.66)), 0.955, 0.835),
 )
+"""Parts of a pick-up: its body, cabin, windscreen, rear window, and windows beside.
+
+Each has a colour, its side (places ahead and up), and its widths at foot and top: all of them as
+parts of the whole."""
 
 
 def follow_me(size: Size) -> Mesh:
     """Return a pick-up with a chequered board and a light bar."""
     width, length, height = size.span_m, size.length_m, size.height_m
-
-    def side_to_side(
-        colour: Colour, side: Sequence[tuple[float, float]], low: float = 1.0, high: float = 1.0
-    ) -> Mesh:
-        return _side_to_side(
-            colour,
-            [(along * length, up * height) for along, up in side],
-            low * width + PANE_M * (colour == GLASS),
-            high * width + PANE_M * (colour == GLASS),
-        )
-
     squares = [
         box(YELLOW if (column + row) % 2 else BLACK, 0.225 * width, 0.1, 0.18 * height).moved(
             (column - 1.5) * 0.225 * width, -0.4 * length, (0.62 + 0.18 * row) * height
@@ -58,11 +55,11 @@ def follow_me(size: Size) -> Mesh:
         for row in range(2)
     ]
     return join([
-        side_to_side(YELLOW, PICK_UP),
-        side_to_side(YELLOW, CABIN, 0.96, 0.8),
-        side_to_side(GLASS, WINDSCREEN, 0.86, 0.7),
-        side_to_side(GLASS, REAR_WINDOW, 0.8, 0.7),
-        *(side_to_side(GLASS, window, 0.945, 0.82) for window in SIDE_WINDOWS),
+        *(
+            _side_to_side(colour, [(along * length, up * height) for along, up in side],
+                          low * width, high * width)
+            for colour, side, low, high in PICK_UP
+        ),
         box(DARK, 0.86 * width, 0.3 * length, PANE_M).moved(0, -0.33 * length, 0.62 * height),
         box(AMBER, 0.7 * width, 0.06 * length, 0.05 * height).moved(up_m=0.95 * height),
         *_ends(width, length, 0.22 * height, 0.3 * height),
