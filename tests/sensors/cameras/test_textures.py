@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import ndimage
 
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.renderers import open_renderer
@@ -107,6 +108,13 @@ def test_more_cover_hides_more_of_the_blue_and_none_hides_nothing() -> None:
         picture(Material.GRASS, replace(overcast, clouds=0.9), INTO_THE_SKY),
         picture(Material.GRASS, overcast, INTO_THE_SKY),
     )
+
+
+def test_few_specks_of_thin_cloud_stand_alone() -> None:
+    """A flatter spectrum, of 2.5, gives 1700 of them."""
+    thick = tiles()[2].finest[Material.DECK]
+    parts, _ = ndimage.label(thick > np.quantile(thick, 0.75))
+    assert (np.bincount(parts.ravel())[1:] <= 9).sum() < 100
 
 
 def test_rain_makes_pavements_darker_and_nothing_else() -> None:
