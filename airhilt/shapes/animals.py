@@ -33,7 +33,7 @@ WING = (
 )
 """Parts of the half span, of the chord and of the angle of a beat, from the root of a wing out."""
 TWIST = 0.25
-"""How much lower the rear of a wing is, as a part of its chord."""
+"""Drop of the rear of a wing, as a part of its chord."""
 
 
 def deer(size: Size) -> Mesh:

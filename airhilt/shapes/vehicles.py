@@ -24,7 +24,7 @@ from airhilt.shapes.mesh import Colour, Mesh, box, join, loft, tube, wheel
 from airhilt.shapes.sizes import Size
 
 PANE_M = 0.02
-"""How far panes, lamps and grilles stand out."""
+"""Distance by which panes, lamps and grilles stand out, in m."""
 PICK_UP: tuple[tuple[Colour, Sequence[tuple[float, float]], float, float], ...] = (
     (
         YELLOW,
@@ -69,7 +69,7 @@ def follow_me(size: Size) -> Mesh:
 
 
 def fire_truck(size: Size) -> Mesh:
-    """Return an airport crash tender with a sloping glass front and a roof turret."""
+    """Return an airport crash tender with shutters along it and a turret on its roof."""
     width, length, height = size.span_m, size.length_m, size.height_m
     low = 0.18 * height
     hull = join([
