@@ -119,8 +119,8 @@ def drawn(name: str, out: Path) -> Summary:
     return summary
 
 
-NUISANCES = {"s02c_intruder_crossing": 1}
-"""Alerts about clouds near the camera, which the detector that ships takes for aircraft."""
+TOO_LATE = "s02c_intruder_headon"
+"""Found at 10 pixels and 3 km, 17 s before contact: docs/evidence.md says which size would do."""
 
 
 @pytest.mark.slow
@@ -136,9 +136,9 @@ def test_the_detector_that_ships_sees_what_is_on_a_runway(name: str, tmp_path: P
 @pytest.mark.parametrize("name", IN_THE_AIR)
 def test_the_detector_that_ships_sees_an_intruder(name: str, tmp_path: Path) -> None:
     summary = drawn(name, tmp_path / "run")
-    assert summary.nuisance_alerts == NUISANCES.get(name, 0)
+    assert summary.nuisance_alerts == 0
     assert {w.recipient for w in warnings(tmp_path / "run")} == {"AAL123", "ATC"}
-    assert not summary.collision
+    assert summary.nmac == (name == TOO_LATE)
 
 
 @pytest.mark.slow

@@ -62,7 +62,7 @@ class Weather(Model):
     visibility_m: Visibility = 10_000.0
     rain_mm_h: Number = Field(default=0.0, ge=0.0, le=150.0, description="rate of rainfall")
     cloud_cover: Share = Field(
-        default=0.0,
+        default=0.25,
         description="share of the sky that thin clouds high up hide; with any, fair-weather clouds "
         "stand about airports too, from 1200 to 1900 m, and hide what is behind them",
     )
@@ -72,7 +72,7 @@ class Appearance(Model):
     """Detail that cameras see."""
 
     texture: Share = Field(
-        default=0.0,
+        default=1.0,
         description="how much surfaces vary about their colours, as a share of what is seen in "
         "photographs",
     )

@@ -35,21 +35,21 @@ class ActorMount(Model):
 
 
 class Imaging(Model):
-    """Effects of a camera's lens, sensor and coder on its pictures; none by default."""
+    """Effects of a camera's lens, sensor and coder; by default those of a good camera."""
 
     exposure_ev: Number = Field(
         default=0.0, ge=-4.0, le=4.0, description="light against that of a good exposure, log 2"
     )
     vignetting: Share = Field(
-        default=0.0,
+        default=0.5,
         description="share of the fourth power of the cosine, by which light falls off from the "
         "axis, that the lens leaves",
     )
     blur_px: Number = Field(
-        default=0.0, ge=0.0, le=4.0, description="deviation of what a point becomes"
+        default=0.5, ge=0.0, le=4.0, description="deviation of what a point becomes"
     )
     fixed_pattern: Number = Field(
-        default=0.0,
+        default=0.005,
         ge=0.0,
         le=0.1,
         description="deviation of pixels' sensitivities (EMVA 1288: photo response non-uniformity)",

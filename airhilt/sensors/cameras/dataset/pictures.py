@@ -187,7 +187,7 @@ def _about(
         "rain_mm_h": round(weather.rain_mm_h, 2),
         "cloud_cover": round(weather.cloud_cover, 3),
         "texture": round(light.texture, 3),
-        "imaging": imaging.model_dump(exclude_defaults=True),
+        "imaging": imaging.model_dump(exclude_none=True),
         "solar_time_h": round(daylight.solar_time_h, 3),
         "sun_elevation_deg": round(light.sun_elevation_rad / DEGREE, 2),
     }
