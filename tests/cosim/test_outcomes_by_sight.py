@@ -120,7 +120,7 @@ def drawn(name: str, out: Path) -> Summary:
 
 
 TOO_LATE = "s02c_intruder_headon"
-"""Found at 10 pixels and 3 km, 17 s before contact: docs/evidence.md says which size would do."""
+"""Found at 10 pixels, 17 s before they collide: docs/evidence.md says which size would do."""
 
 
 @pytest.mark.slow
@@ -139,6 +139,7 @@ def test_the_detector_that_ships_sees_an_intruder(name: str, tmp_path: Path) -> 
     assert summary.nuisance_alerts == 0
     assert {w.recipient for w in warnings(tmp_path / "run")} == {"AAL123", "ATC"}
     assert summary.nmac == (name == TOO_LATE)
+    assert summary.collision == (name == TOO_LATE)
 
 
 @pytest.mark.slow

@@ -26,7 +26,7 @@ import json
 import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -288,10 +288,12 @@ def _shoot(
 
 def _light(latitude_rad: float, solar_time_h: float, en_route: bool) -> Any:
     from airhilt.scenario.models import Daylight, Weather
+    from airhilt.scenario.models.scene import Appearance
     from airhilt.sensors.cameras.scene.builder import air_and_sun
 
     day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=solar_time_h)
-    return air_and_sun(Weather(visibility_m=10_000.0), day, latitude_rad, en_route)
+    light = air_and_sun(Weather(visibility_m=10_000.0), day, latitude_rad, en_route)
+    return replace(light, texture=Appearance().texture)
 
 
 def _before_ground_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:

@@ -63,7 +63,8 @@ class Weather(Model):
     rain_mm_h: Number = Field(default=0.0, ge=0.0, le=150.0, description="rate of rainfall")
     cloud_cover: Share = Field(
         default=0.25,
-        description="share of the sky that thin clouds high up hide; with any, fair-weather clouds "
+        description="share of the sky in which thin clouds high up are seen, none in rain or at a "
+        "visibility of 5.5 km or less; with any, fair-weather clouds "
         "stand about airports too, from 1200 to 1900 m, and hide what is behind them",
     )
 

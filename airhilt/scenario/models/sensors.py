@@ -42,8 +42,8 @@ class Imaging(Model):
     )
     vignetting: Share = Field(
         default=0.5,
-        description="share of the fourth power of the cosine, by which light falls off from the "
-        "axis, that the lens leaves",
+        description="how much light falls off towards the corners: 0 not at all, 1 by the fourth "
+        "power of the cosine",
     )
     blur_px: Number = Field(
         default=0.5, ge=0.0, le=4.0, description="deviation of what a point becomes"

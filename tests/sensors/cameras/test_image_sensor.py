@@ -23,7 +23,7 @@ def exposed(light: np.ndarray, number: int = 0, **imaging: float) -> np.ndarray:
     )
 
 
-def test_nothing_is_changed_unless_asked() -> None:
+def test_an_ideal_camera_changes_nothing() -> None:
     assert np.array_equal(exposed(GREY), GREY)
     assert np.array_equal(exposed(SQUARE), SQUARE)
 

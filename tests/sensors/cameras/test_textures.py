@@ -14,13 +14,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import ndimage
 
+from airhilt import load
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.renderers import open_renderer
+from airhilt.sensors.cameras.scene.builder import light_of
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import airport_landscape
 from airhilt.sensors.cameras.scene.textures import SIDE, Places, factors, tiles
 from airhilt.shapes.material import Material
 from airhilt.shapes.mesh import Mesh
+from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.layout import load_layout
 from breadth import examples
 
@@ -48,8 +51,16 @@ def test_a_surface_varies_about_its_colour_and_keeps_it(material: Material) -> N
         for texture in (0.0, 0.5, 1.0)
     )
     assert flat.std(axis=(0, 1)).max() < 1.0
-    assert half.std() < full.std()
+    spread = [each.std(axis=(0, 1)).mean() for each in (flat, half, full)]
+    assert spread[0] < spread[1] < spread[2]
     assert full.mean() == pytest.approx(flat.mean(), rel=0.06)
+
+
+def test_a_scenario_has_textures_and_clouds_unless_it_says_otherwise() -> None:
+    scenario = load("s01b_nominal")
+    light = light_of(scenario, ScenarioSite.of(scenario))
+    assert light.texture == 1.0
+    assert light.clouds > 0.0
 
 
 def test_a_texture_is_the_same_in_every_process() -> None:
