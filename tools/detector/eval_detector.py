@@ -26,7 +26,7 @@ import json
 import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -292,8 +292,8 @@ def _light(latitude_rad: float, solar_time_h: float, en_route: bool) -> Any:
     from airhilt.sensors.cameras.scene.builder import air_and_sun
 
     day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=solar_time_h)
-    light = air_and_sun(Weather(visibility_m=10_000.0), day, latitude_rad, en_route)
-    return replace(light, texture=Appearance().texture)
+    weather, texture = Weather(visibility_m=10_000.0), Appearance().texture
+    return air_and_sun(weather, day, texture, latitude_rad, en_route)
 
 
 def _before_ground_camera(renderer: str, solar_time_h: float) -> Iterator[Any]:

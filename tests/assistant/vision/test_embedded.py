@@ -47,7 +47,7 @@ def airliner() -> Airliner:
     from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 
     day = Daylight(date=datetime.date(2026, 5, 1), solar_time_h=10.0)
-    light = air_and_sun(Weather(visibility_m=20_000.0), day, 0.8, True)
+    light = air_and_sun(Weather(visibility_m=20_000.0), day, 1.0, 0.8, True)
     pose = Pose.of((0.0, 0.0, 900.0), 0.0)
     camera = Camera("nose", Intrinsics(636, 356, 0.7), pose)
     scene_renderer = SceneRenderer(

@@ -56,11 +56,12 @@ def test_a_surface_varies_about_its_colour_and_keeps_it(material: Material) -> N
     assert full.mean() == pytest.approx(flat.mean(), rel=0.06)
 
 
-def test_a_scenario_has_textures_and_clouds_unless_it_says_otherwise() -> None:
+def test_a_scenario_has_textures_clouds_and_lenses_unless_it_says_otherwise() -> None:
     scenario = load("s01b_nominal")
     light = light_of(scenario, ScenarioSite.of(scenario))
     assert light.texture == 1.0
     assert light.clouds > 0.0
+    assert all(camera.imaging.blur_px > 0.0 for camera in scenario.cameras)
 
 
 def test_a_texture_is_the_same_in_every_process() -> None:

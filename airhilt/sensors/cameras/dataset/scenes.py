@@ -9,7 +9,7 @@ from __future__ import annotations
 import datetime
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -215,9 +215,9 @@ def _weather(
         daylight = Daylight(
             date=datetime.date(2026, 1, 1) + day, solar_time_h=float(draws.uniform(0.0, 24.0))
         )
-        light = air_and_sun(weather, daylight, latitude_rad, en_route)
+        light = air_and_sun(weather, daylight, texture, latitude_rad, en_route)
         if low <= math.degrees(light.sun_elevation_rad) < high:
-            return weather, daylight, replace(light, texture=texture)
+            return weather, daylight, light
 
 
 def _standpoint(layout: Layout, draws: np.random.Generator) -> Pose:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Airborne, Daylight, Weather
@@ -32,12 +31,12 @@ def light_of(scenario: Scenario, site: ScenarioSite) -> Illumination:
     """Return the illumination of a scenario."""
     latitude_rad, _ = local_frame_of(site).origin
     en_route = site.layout is None
-    light = air_and_sun(scenario.weather, scenario.daylight, latitude_rad, en_route)
-    return replace(light, texture=scenario.appearance.texture)
+    texture = scenario.appearance.texture
+    return air_and_sun(scenario.weather, scenario.daylight, texture, latitude_rad, en_route)
 
 
 def air_and_sun(
-    weather: Weather, daylight: Daylight, latitude_rad: float, en_route: bool
+    weather: Weather, daylight: Daylight, texture: float, latitude_rad: float, en_route: bool
 ) -> Illumination:
     """Return the illumination of a place; rain reduces the visibility."""
     rain_m = rain_visibility_m(weather.rain_mm_h)
@@ -51,6 +50,7 @@ def air_and_sun(
         visibility,
         overcast,
         background,
+        texture,
         clouds=weather.cloud_cover,
         wet=weather.rain_mm_h > 0.0,
     )

@@ -67,7 +67,7 @@ class Illumination:
     texture
         Share of the variation of surfaces about their colours.
     clouds
-        Share of the sky that thin clouds hide.
+        Share of the sky in which thin clouds are seen.
     wet
         True if rain has wetted the ground.
     """
