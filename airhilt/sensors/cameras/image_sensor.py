@@ -54,6 +54,9 @@ class ImageSensor:
         # Kept from picture to picture: getting memory takes longer than computing.
         self._levels, self._spare = np.empty((2, *gains.shape), np.uint16)
         self._pixels = np.empty(gains.shape, np.uint32)
+        self._light: Pixels | None = None
+        self._exposed = np.empty(gains.shape, np.uint8)
+        """The last light, and what it gave without noise."""
         if imaging.noise_levels > 0.0:
             size = shape[0] + SPARE_PX, shape[1] + SPARE_PX, 3
             grain = draws.standard_normal(size, np.float32)
@@ -61,24 +64,37 @@ class ImageSensor:
 
     def expose(self, light: Pixels, number: int) -> Pixels:
         """Return the picture of some light, given in 8-bit sRGB; noise differs by its number."""
-        levels, pixels = self._levels, self._pixels
-        levels[...] = light
         passes = math.ceil((self._imaging.blur_px / MOST_BLUR_PX) ** 2)
-        for _ in range(passes):
-            side = round(ONE * self._imaging.blur_px**2 / passes / 2.0)
-            _blur(levels, self._spare, side, 1)
-            _blur(levels, self._spare, side, 0)
-        np.multiply(levels, self._gains, out=pixels)
-        pixels += FULL_GAIN // 2
-        pixels //= FULL_GAIN
-        np.minimum(pixels, 255, out=pixels)
+        rows = _changed_rows(self._light, light)
+        if rows is not None:
+            self._expose(light, rows, passes)
+            self._light = light.copy()
         if self._imaging.noise_levels > 0.0:
             draws = stream(0, f"noise/{self._name}", number)
             row, column = draws.integers(SPARE_PX, size=2)
             grain = self._grain[row : row + light.shape[0], column : column + light.shape[1]]
             grain = grain[:: draws.choice((-1, 1)), :: draws.choice((-1, 1))]
-            return self._coded(np.clip(pixels + grain, 0, 255).astype(np.uint8))
-        return self._coded(pixels.astype(np.uint8))
+            return self._coded(np.clip(self._exposed + grain, 0, 255).astype(np.uint8))
+        return self._coded(self._exposed.copy())
+
+    def _expose(self, light: Pixels, changed: slice, passes: int) -> None:
+        """Expose anew what changed rows reach by so many passes of the blur, a row each."""
+        height = len(light)
+        first, end = max(changed.start - passes, 0), min(changed.stop + passes, height)
+        about = slice(max(first - passes, 0), min(end + passes, height))
+        levels, spare = self._levels[about], self._spare[about]
+        levels[...] = light[about]
+        side = round(ONE * self._imaging.blur_px**2 / max(passes, 1) / 2.0)
+        for _ in range(passes):
+            _blur(levels, spare, side, 1)
+            _blur(levels, spare, side, 0)
+        reached = slice(first, end)
+        pixels = self._pixels[reached]
+        np.multiply(self._levels[reached], self._gains[reached], out=pixels)
+        pixels += FULL_GAIN // 2
+        pixels //= FULL_GAIN
+        np.minimum(pixels, 255, out=pixels)
+        self._exposed[reached] = pixels
 
     def _coded(self, pixels: Pixels) -> Pixels:
         if self._imaging.jpeg_quality is None:
@@ -86,6 +102,14 @@ class ImageSensor:
         coded = io.BytesIO()
         Image.fromarray(pixels).save(coded, "JPEG", quality=self._imaging.jpeg_quality)
         return np.array(Image.open(coded))
+
+
+def _changed_rows(before: Pixels | None, now: Pixels) -> slice | None:
+    """Return the rows from the first that has changed to the last; None if none has."""
+    if before is None:
+        return slice(0, len(now))
+    changed = np.flatnonzero((before != now).reshape(len(now), -1).any(axis=1))
+    return slice(int(changed[0]), int(changed[-1]) + 1) if len(changed) else None
 
 
 def _blur(levels: Levels, spare: Levels, side: int, axis: int) -> None:

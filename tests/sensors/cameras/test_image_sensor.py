@@ -82,3 +82,15 @@ def test_a_poor_jpeg_is_farther_from_the_picture_than_a_good_one() -> None:
     noise = np.random.default_rng(0).integers(0, 255, GREY.shape).astype(np.uint8)
     poor, good = (np.abs(exposed(noise, jpeg_quality=q) - noise).mean() for q in (20, 95))
     assert good < poor
+
+
+@pytest.mark.parametrize("blur_px", [0.0, 0.5, 1.3])
+def test_a_picture_does_not_depend_on_the_one_before(blur_px: float) -> None:
+    imaging = IDEAL.model_copy(update={"blur_px": blur_px, "vignetting": 0.5})
+    sensor = ImageSensor("tower", LENS, imaging)
+    draws = np.random.default_rng(0)
+    light = GREY.copy()
+    for first, rows in ((0, 90), (0, 2), (40, 5), (88, 2), (30, 0)):
+        light[first : first + rows] = draws.integers(0, 256, (rows, 160, 3))
+        alone = ImageSensor("tower", LENS, imaging)
+        assert np.array_equal(sensor.expose(light, 0), alone.expose(light, 0))
