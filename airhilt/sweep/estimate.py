@@ -66,12 +66,16 @@ def estimate(specification: Specification, work: Work) -> Estimate:
 
 
 class Probes:
-    """Tries runs: one of each kind, with cameras or without, and with speech or without."""
+    """Tries runs: one of each kind.
+
+    Kinds differ in cameras, speech and the assistant: without one nobody looks at pictures, and
+    none are drawn.
+    """
 
     def __init__(self, limits: Limits) -> None:
         self._limits = limits
         self._runners: dict[str, RunnerProcess] = {}
-        self._tried: dict[tuple[str, bool], Machine] = {}
+        self._tried: dict[tuple[str, bool, str], Machine] = {}
 
     def runner(self, renderer: str) -> RunnerProcess:
         """Return the process that tries runs with a renderer; see `RunnerProcess` for errors."""
@@ -88,7 +92,7 @@ class Probes:
             It has not finished.
         """
         renderer = renderer_of([case])
-        kind = renderer, bool(case.options.get("speech", True))
+        kind = renderer, bool(case.options.get("speech", True)), case.assistant
         if kind not in self._tried:
             with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
                 request = request_of(key, case, Path(scratch) / "run")

@@ -518,7 +518,8 @@ def test_a_dry_run_tries_one_run_of_each_kind(
     def specifications(choice: Choice) -> Mapping[str, Specification]:
         only = small.specifications(choice)["only"]
         silent = only.model_copy(update={"options": {**only.options, "speech": False}})
-        return {"first": only, "again": only, "silent": silent}
+        warned = only.model_copy(update={"options": {**only.options, "assistant": "paper"}})
+        return {"first": only, "again": only, "silent": silent, "warned": warned}
 
     tried: list[Request] = []
 
@@ -535,8 +536,9 @@ def test_a_dry_run_tries_one_run_of_each_kind(
         "first": (2, 1.0),
         "again": (2, 1.0),
         "silent": (2, 2.0),
+        "warned": (2, 3.0),
     }
-    assert [request.options.get("speech", True) for request in tried] == [True, False]
+    assert [request.options.get("speech", True) for request in tried] == [True, False, True]
 
 
 @pytest.mark.slow
