@@ -1,4 +1,4 @@
-"""How long a sweep would take: the number of runs that are left, and one of them as a probe."""
+"""How long a sweep would take: how many runs are left, and one of each kind as a probe."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import fmean
 
 from airhilt.errors import AirhiltError
 from airhilt.host.machine import available_cores
@@ -30,14 +31,15 @@ class Estimate:
     finished
         Number of those that the sweep's folder has already, and that are not run again.
     run_s
-        Wall time of the probe, one run alone on this machine; None: no run is left.
+        Mean wall time of the runs that are left if all were like the probe of their kind, which ran
+        alone on this machine; None: no run is left.
     run_mb
-        Most memory of the probe; None: no run is left.
+        Most memory of a probe; None: no run is left.
     at_once
         Number of runs that would go on at a time; None: only the scheduler knows.
     total_s
-        Wall time of the runs that are left, if all were like the probe and the workers as fast as
-        this machine; None if it is not known how many go on at a time.
+        Wall time of the runs that are left, if the workers are as fast as this machine; None if it
+        is not known how many go on at a time.
     """
 
     runs: int
@@ -50,7 +52,7 @@ class Estimate:
 
 
 def estimate(specification: Specification, work: Work) -> Estimate:
-    """Return the size of a sweep; the first run that is left is run, and nothing is kept of it.
+    """Return the size of a sweep; a run of each kind that is left is run, and nothing is kept.
 
     The folder of the sweep stays as it is.
 
@@ -66,16 +68,12 @@ def estimate(specification: Specification, work: Work) -> Estimate:
 
 
 class Probes:
-    """Tries runs: one of each kind.
-
-    Kinds differ in cameras, speech and the assistant: without one nobody looks at pictures, and
-    none are drawn.
-    """
+    """Tries runs: one of each kind, with pictures to look at or without, and with speech or not."""
 
     def __init__(self, limits: Limits) -> None:
         self._limits = limits
         self._runners: dict[str, RunnerProcess] = {}
-        self._tried: dict[tuple[str, bool, str], Machine] = {}
+        self._tried: dict[tuple[bool, bool], Machine] = {}
 
     def runner(self, renderer: str) -> RunnerProcess:
         """Return the process that tries runs with a renderer; see `RunnerProcess` for errors."""
@@ -91,14 +89,15 @@ class Probes:
         AirhiltError
             It has not finished.
         """
-        renderer = renderer_of([case])
-        kind = renderer, bool(case.options.get("speech", True)), case.assistant
+        kind = case.may_look, bool(case.options.get("speech", True))
         if kind not in self._tried:
             with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
                 request = request_of(key, case, Path(scratch) / "run")
-                probe = self.runner(renderer).run(request)
+                probe = self.runner(renderer_of([case])).run(request)
             if probe.status != "finished":
-                raise AirhiltError(f"the first run, a probe, {probe.status}: {probe.cause}")
+                raise AirhiltError(
+                    f"a probe, {case.scenario} with {case.assistant}, {probe.status}: {probe.cause}"
+                )
             self._tried[kind] = probe.machine
         return self._tried[kind]
 
@@ -117,8 +116,8 @@ def estimate_of(grid: Sequence[Case], work: Work, probes: Probes) -> Estimate:
     by_key = {case.key(own): case for case in grid}
     finished = by_keys(store.finished(part_schema(), None), by_key)
     left = missing_of(by_key, finished, work.retry)
-    probe = probes.of(left[0], by_key[left[0]]) if left else None
-    run_s = None if probe is None else probe.wall_s
+    tried = [probes.of(key, by_key[key]) for key in left]
+    run_s = fmean(probe.wall_s for probe in tried) if tried else None
     workers = work.workers or default_workers(renderer)
     at_once = min(workers, available_cores()) if work.scheduler == LOCAL else None
     total_s = None if at_once is None else math.ceil(len(left) / at_once) * (run_s or 0.0)
@@ -126,7 +125,7 @@ def estimate_of(grid: Sequence[Case], work: Work, probes: Probes) -> Estimate:
         runs=len(by_key),
         finished=len(by_key) - len(left),
         run_s=run_s,
-        run_mb=None if probe is None else probe.peak_memory_mb,
+        run_mb=max((probe.peak_memory_mb for probe in tried), default=None),
         workers=workers,
         at_once=at_once,
         total_s=total_s if left else 0.0,

@@ -55,7 +55,7 @@ def test_a_quiet_sweep_says_nothing(airhilt_command: Any) -> None:
 
 @pytest.mark.parametrize("command", [
     ("sweep", "--scenario", "x"),
-    pytest.param(("evaluate", "--preset=paper"), marks=pytest.mark.slow),
+    pytest.param(("evaluate", "--preset=paper", "--no-cameras"), marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_a_dry_run_says_first_that_it_does_a_run(
     command: tuple[str, ...], airhilt_command: Any, monkeypatch: pytest.MonkeyPatch

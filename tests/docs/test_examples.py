@@ -136,8 +136,8 @@ def run(script: str, environment: dict[str, str]) -> str:
 def as_run(command: str, endpoint: str, work: Path) -> str:
     """Return a command as it is run here: its own run folders and port, and few pictures.
 
-    An evaluation tries one run. The page of a run folder is served until Ctrl+C, and interrupted;
-    a run with a page goes faster than the clock on the wall.
+    An evaluation tries a run of each kind. The page of a run folder is served until Ctrl+C, and
+    interrupted; a run with a page goes faster than the clock on the wall.
     """
     command = re.sub(r"tcp/127\.0\.0\.1:\d+", endpoint, command)
     command = re.sub(r"--images \d+", "--images 2", command)

@@ -515,11 +515,26 @@ def test_an_evaluation_leaves_sweeps_and_tables_and_goes_on_where_it_was(
 def test_a_dry_run_tries_one_run_of_each_kind(
     small: Preset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    path = tmp_path / "short.json"
+    document = json.loads(path.read_text())
+    nose = {"type": "actor", "actor": document["actors"][0]["callsign"], "station": "nose"}
+    path.write_text(json.dumps(document | {"cameras": [{"name": "nose", "mount": nose}]}))
+
     def specifications(choice: Choice) -> Mapping[str, Specification]:
-        only = small.specifications(choice)["only"]
-        silent = only.model_copy(update={"options": {**only.options, "speech": False}})
-        warned = only.model_copy(update={"options": {**only.options, "assistant": "paper"}})
-        return {"first": only, "again": only, "silent": silent, "warned": warned}
+        alone = small.specifications(choice)["only"]
+
+        def with_options(**options: Any) -> Specification:
+            return alone.model_copy(update={"options": {**alone.options, **options}})
+
+        return {
+            "alone": alone,
+            "blind": with_options(assistant="paper", modalities="adsb"),
+            "seeing": with_options(assistant="paper"),
+            "silent": with_options(speech=False),
+            "both": alone.model_copy(
+                update={"axes": {"assistant": ["none", "paper"]}, "options": {"latency": "fixed"}}
+            ),
+        }
 
     tried: list[Request] = []
 
@@ -533,12 +548,13 @@ def test_a_dry_run_tries_one_run_of_each_kind(
         replace(small, specifications=specifications), Choice(2, {}), Work(tmp_path / "out")
     )
     assert {name: (each.runs, each.run_s) for name, each in found.items()} == {
-        "first": (2, 1.0),
-        "again": (2, 1.0),
-        "silent": (2, 2.0),
-        "warned": (2, 3.0),
+        "alone": (2, 1.0),
+        "blind": (2, 1.0),
+        "seeing": (2, 2.0),
+        "silent": (2, 3.0),
+        "both": (4, 1.5),
     }
-    assert [request.options.get("speech", True) for request in tried] == [True, False, True]
+    assert len(tried) == 3
 
 
 @pytest.mark.slow

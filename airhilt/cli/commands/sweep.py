@@ -117,7 +117,7 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     work = replace(work, allowed=given["allowed"])
     if given["dry_run"]:
         if not given["quiet"]:
-            tell("checks all runs, and does one of those that are left")
+            tell("checks all runs, and does one of those that are left, of each kind")
         print_estimate(estimate(specification, work), given["as_json"])
         return 0
     if given["out"] is None and not given["quiet"]:

@@ -55,8 +55,9 @@ class ImageSensor:
         self._levels, self._spare = np.empty((2, *gains.shape), np.uint16)
         self._pixels = np.empty(gains.shape, np.uint32)
         self._light: Pixels | None = None
+        """The last light."""
         self._exposed = np.empty(gains.shape, np.uint8)
-        """The last light, and what it gave without noise."""
+        """What the last light gave, before noise and coding."""
         if imaging.noise_levels > 0.0:
             size = shape[0] + SPARE_PX, shape[1] + SPARE_PX, 3
             grain = draws.standard_normal(size, np.float32)
@@ -64,10 +65,9 @@ class ImageSensor:
 
     def expose(self, light: Pixels, number: int) -> Pixels:
         """Return the picture of some light, given in 8-bit sRGB; noise differs by its number."""
-        passes = math.ceil((self._imaging.blur_px / MOST_BLUR_PX) ** 2)
         rows = _changed_rows(self._light, light)
         if rows is not None:
-            self._expose(light, rows, passes)
+            self._expose(light, rows)
             self._light = light.copy()
         if self._imaging.noise_levels > 0.0:
             draws = stream(0, f"noise/{self._name}", number)
@@ -77,8 +77,9 @@ class ImageSensor:
             return self._coded(np.clip(self._exposed + grain, 0, 255).astype(np.uint8))
         return self._coded(self._exposed.copy())
 
-    def _expose(self, light: Pixels, changed: slice, passes: int) -> None:
-        """Expose anew what changed rows reach by so many passes of the blur, a row each."""
+    def _expose(self, light: Pixels, changed: slice) -> None:
+        """Expose anew what changed rows reach: a row further in each pass of the blur."""
+        passes = math.ceil((self._imaging.blur_px / MOST_BLUR_PX) ** 2)
         height = len(light)
         first, end = max(changed.start - passes, 0), min(changed.stop + passes, height)
         about = slice(max(first - passes, 0), min(end + passes, height))
