@@ -28,6 +28,7 @@ from airhilt.engine_families import (
     ASSISTANTS,
     DETECTORS,
     ENHANCERS,
+    NONE,
     RECOGNISERS,
     VOICES,
     WORDINGS,
@@ -610,6 +611,12 @@ class Options(BaseModel):
     def given_modalities(self) -> frozenset[str]:
         """Modalities that the assistant is given."""
         return frozenset(self.modalities.split("+"))
+
+    @property
+    def asks_for_detections(self) -> bool:
+        """True if the assistant may be told what a detector finds in pictures."""
+        has_both = self.detector != NONE and self.assistant != NONE
+        return self.cameras and has_both and "vision" in self.given_modalities
 
 
 def options_of(given: dict[str, Any]) -> Options:

@@ -13,7 +13,6 @@ from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.setup import Setup
 from airhilt.cosim.world_loop import WorldLoop
-from airhilt.engine_families import NONE
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import ModalityState
 from airhilt.options import Options
@@ -169,11 +168,7 @@ def started_renderers(
         or options.video
         or options.endpoint is not None
         or bool(options.attach)
-        or (
-            options.detector != NONE
-            and options.assistant != NONE
-            and "vision" in options.given_modalities
-        )
+        or options.asks_for_detections
     )
     with ExitStack() as stack:
         processes: list[ChildProcess] = []

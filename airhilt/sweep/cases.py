@@ -18,7 +18,7 @@ from pydantic import JsonValue, ValidationError
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.requested import is_vision_measured, requested_latency, requested_radio
-from airhilt.engine_families import ASSISTANTS, DETECTORS, EXTERNAL, NONE
+from airhilt.engine_families import ASSISTANTS, DETECTORS, EXTERNAL
 from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.host import library
 from airhilt.options import Options
@@ -83,12 +83,6 @@ class Case:
     def has_cameras(self) -> bool:
         """True if pictures are taken."""
         return bool(self.options.get("cameras", True) and self.document["cameras"])
-
-    @property
-    def may_look(self) -> bool:
-        """True if the assistant may be told what is in pictures; otherwise none are drawn."""
-        is_given = "vision" in Options(**self.options).given_modalities
-        return self.has_cameras and self.assistant != NONE and is_given
 
     @property
     def may_share_pictures(self) -> bool:

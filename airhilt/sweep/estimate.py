@@ -1,4 +1,4 @@
-"""How long a sweep would take: how many runs are left, and one of each kind as a probe."""
+"""Estimate of the time of a sweep: how many runs are left, and one of each kind as a probe."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from statistics import fmean
 
 from airhilt.errors import AirhiltError
 from airhilt.host.machine import available_cores
+from airhilt.options import Options
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.engine import by_keys, missing_of, renderer_of, request_of
@@ -89,7 +90,8 @@ class Probes:
         AirhiltError
             It has not finished.
         """
-        kind = case.may_look, bool(case.options.get("speech", True))
+        options = Options(**case.options)
+        kind = case.has_cameras and options.asks_for_detections, options.speech
         if kind not in self._tried:
             with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
                 request = request_of(key, case, Path(scratch) / "run")

@@ -529,6 +529,7 @@ def test_a_dry_run_tries_one_run_of_each_kind(
         return {
             "alone": alone,
             "blind": with_options(assistant="paper", modalities="adsb"),
+            "no detector": with_options(assistant="paper", detector="none"),
             "seeing": with_options(assistant="paper"),
             "silent": with_options(speech=False),
             "both": alone.model_copy(
@@ -550,6 +551,7 @@ def test_a_dry_run_tries_one_run_of_each_kind(
     assert {name: (each.runs, each.run_s) for name, each in found.items()} == {
         "alone": (2, 1.0),
         "blind": (2, 1.0),
+        "no detector": (2, 1.0),
         "seeing": (2, 2.0),
         "silent": (2, 3.0),
         "both": (4, 1.5),

@@ -57,7 +57,7 @@ class ImageSensor:
         self._light: Pixels | None = None
         """The last light."""
         self._exposed = np.empty(gains.shape, np.uint8)
-        """What the last light gave, before noise and coding."""
+        """Picture of the last light, before noise and coding."""
         if imaging.noise_levels > 0.0:
             size = shape[0] + SPARE_PX, shape[1] + SPARE_PX, 3
             grain = draws.standard_normal(size, np.float32)
